@@ -1,0 +1,22 @@
+#include "tanglebin/base/error.hpp"
+
+namespace tanglebin {
+namespace {
+
+std::string message(const InputPlace& place, const std::string& problem) {
+  std::string text = place.file;
+  if (place.line > 0) text += ":" + std::to_string(place.line);
+  if (!text.empty()) text += ": ";
+  if (!place.field.empty()) text += place.field + ": ";
+  return text + problem;
+}
+
+}  // namespace
+
+InputError::InputError(const InputPlace& place, const std::string& problem)
+    : std::runtime_error(message(place, problem)), place_(place) {}
+
+InputError::InputError(const InputPlace& place, const std::string& found, const std::string& expected)
+    : InputError(place, "found " + found + ", expected " + expected) {}
+
+}  // namespace tanglebin

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace tanglebin {
+
+/// Where in the input something was found. An empty or zero member is not printed.
+struct InputPlace {
+  std::string file;      ///< path as the user gave it
+  std::size_t line = 0;  ///< 1-based; 0 where the input has no lines (binary data, command line)
+  std::string field;     ///< name of the value: a key, a column, a property
+};
+
+/// Bad input: a file, a recipe or a parameter. The program prints what() on one line and exits 2.
+/// what() reads "file:line: field: problem", problem being "found …, expected …" or a plain sentence.
+class InputError : public std::runtime_error {
+public:
+  InputError(const InputPlace& place, const std::string& problem);
+  InputError(const InputPlace& place, const std::string& found, const std::string& expected);
+
+  const InputPlace& place() const noexcept { return place_; }
+
+private:
+  InputPlace place_;
+};
+
+}  // namespace tanglebin

@@ -1,0 +1,15 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace tanglebin::cli {
+
+// One function and one file a command: adds the subcommand with its options, help and callback. A callback
+// throws InputError for bad input; main() turns what it throws into a message and an exit code.
+void add_generate(CLI::App& app);
+void add_scan(CLI::App& app);
+void add_preview(CLI::App& app);
+
+}  // namespace tanglebin::cli

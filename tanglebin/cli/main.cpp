@@ -1,0 +1,43 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/cli/commands.hpp"
+
+namespace {
+
+constexpr int exit_internal_error = 1;
+constexpr int exit_bad_input = 2;
+constexpr int exit_usage = 64;  // EX_USAGE of sysexits.h
+
+int run(int argc, char** argv) {
+  CLI::App app{"Labelled 3D scans of bins of entangled tubes: generate, settle, scan, model, score."};
+  app.name("tanglebin");
+  app.set_version_flag("--version", TANGLEBIN_VERSION);
+  app.require_subcommand(1);
+  tanglebin::cli::add_generate(app);
+  tanglebin::cli::add_scan(app);
+  tanglebin::cli::add_preview(app);
+  try {
+    app.parse(argc, argv);  // runs the chosen command's callback
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : exit_usage;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const tanglebin::InputError& error) {
+    fmt::print(stderr, "tanglebin: {}\n", error.what());
+    return exit_bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "tanglebin: {}\n", error.what());
+    return exit_internal_error;
+  }
+}

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tanglebin/scan/scan.hpp"
+
+namespace tanglebin {
+
+using Color = std::array<std::uint8_t, 3>;  ///< red, green, blue
+
+/// A point cloud as arrays of equal length; an optional array is empty where the cloud has no such property.
+/// Organized (width * height points, row by row, NaN where there is none) or not (height 1).
+struct PointCloud {
+  std::vector<Eigen::Vector3f> points;  ///< m, world frame
+  std::vector<std::int32_t> labels;     ///< optional: 0 the bin, 1..n the tubes, −1 null
+  std::vector<Color> colors;            ///< optional
+  std::size_t width = 0;
+  std::size_t height = 1;
+  std::optional<Eigen::Isometry3d> viewpoint;  ///< sensor frame → world frame, where known
+};
+
+/// Which pixels of a scan become points.
+enum class CloudOf { tubes, tubes_and_bin };
+
+/// The unordered cloud of a scan, in the order of its pixels, labelled and coloured with label_colors().
+PointCloud cloud_from_scan(const Scan& scan, CloudOf what, int tubes);
+
+/// The organized cloud of the whole image, NaN and null where a pixel has no point.
+PointCloud organized_cloud_from_scan(const Scan& scan, CloudOf what, int tubes);
+
+}  // namespace tanglebin

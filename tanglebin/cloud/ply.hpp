@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+
+#include "tanglebin/cloud/cloud.hpp"
+
+namespace tanglebin {
+
+/// Reads a PLY cloud: ascii, binary_little_endian or binary_big_endian; x, y, z float or double in any
+/// order among other scalar properties of the element `vertex`; optional red, green, blue uchar and an
+/// integer `label`; other elements and properties are skipped. Strict: throws InputError with the file
+/// (`name`), the line of the header or of the ascii body, the property, what was found and what was expected.
+/// A coordinate that is not finite is an error.
+PointCloud read_ply(std::istream& in, const std::string& name);
+PointCloud read_ply(const std::filesystem::path& file);
+
+/// Writes binary little-endian PLY: x y z float (m), then red green blue uchar and label int where the cloud
+/// has them (docs/formats.md).
+void write_ply(std::ostream& out, const PointCloud& cloud);
+
+}  // namespace tanglebin

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tanglebin/scan/camera.hpp"
+
+namespace tanglebin {
+
+inline constexpr std::int32_t bin_label = 0;    ///< the bin; tubes are 1, 2, …
+inline constexpr std::int32_t null_label = -1;  ///< no tube claims the point; in a scan: the ray met nothing
+
+/// Part of an image: columns [left, left + width), rows [top, top + height).
+struct PixelWindow {
+  int left = 0;
+  int top = 0;
+  int width = 0;
+  int height = 0;
+};
+
+/// What the ray through one pixel met. All but `label` are NaN where it met nothing.
+struct Pixel {
+  float depth;             ///< m, along the camera's z axis
+  float range;             ///< m, from the camera's centre to the point
+  Eigen::Vector3f point;   ///< m, world frame
+  Eigen::Vector3f normal;  ///< outward unit normal, world frame
+  float incidence;         ///< rad, between the normal and the direction back to the camera
+  std::int32_t label;
+};
+
+/// An organized scan: the pixels of `window`, row by row. The image's other pixels cannot see the scene; they
+/// are as those whose ray met nothing.
+struct Scan {
+  Camera camera;
+  PixelWindow window;
+  std::vector<Pixel> pixels;  ///< window.width * window.height
+
+  /// The pixel in column u, row v of the whole image; (u, v) must lie in the window.
+  const Pixel& at(int u, int v) const {
+    return pixels[static_cast<std::size_t>(v - window.top) * static_cast<std::size_t>(window.width) +
+                  static_cast<std::size_t>(u - window.left)];
+  }
+};
+
+}  // namespace tanglebin

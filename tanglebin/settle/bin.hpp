@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <string_view>
+
+namespace tanglebin {
+
+/// An open box. World frame: z up, origin on the centre of the floor's upper side, x along the length.
+struct Bin {
+  double length = 0.55;   ///< m, inner size along x
+  double width = 0.37;    ///< m, inner size along y
+  double height = 0.20;   ///< m, from the floor's upper side to the rim
+  double wall = 0.02;     ///< m, thickness of walls and floor
+  double friction = 100;  ///< Coulomb coefficient of a tube against the bin
+};
+
+/// "paper" (0.55 x 0.37 x 0.20 m, Section 6.1) or "published" (0.80 x 0.60 x 0.20 m, as the published worlds
+/// have it). Throws InputError for another name.
+Bin bin_preset(std::string_view name);
+
+/// Floor, then the walls at −x, +x, −y, +y. They touch but do not overlap; together they are the bin.
+std::array<Eigen::AlignedBox3d, 5> boxes(const Bin& bin);
+
+/// Throws InputError naming the field under `bin` that is not a finite positive number.
+void validate(const Bin& bin);
+
+}  // namespace tanglebin

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace tanglebin {
+
+/// All points within `radius` of the segment a–b: a cylinder with a hemisphere at each end. Metres.
+struct Capsule {
+  Eigen::Vector3d a;
+  Eigen::Vector3d b;
+  double radius;
+};
+
+/// The closest points of two segments p0–p1 and q0–q1: p0 + s (p1 − p0) and q0 + t (q1 − q0), s and t in [0,
+/// 1].
+struct SegmentPair {
+  double distance;
+  double s;
+  double t;
+};
+
+/// Closest points of two segments, each of which may be a point (Ericson, Real-Time Collision
+/// Detection, 5.1.9).
+SegmentPair closest_points(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
+                           const Eigen::Vector3d& q1);
+
+/// Distance between the surfaces of two capsules; negative: how deep they overlap.
+double surface_distance(const Capsule& first, const Capsule& second);
+
+}  // namespace tanglebin
