@@ -61,15 +61,11 @@ void draw_segment(Rng& rng, const Segment& segment, int& next_id, Tube& tube) {
   }
 }
 
-// The published files leave one id free between the named nodes and the inner ones: 4, 5, … in a chain.
-int first_inner_id(const TubeSpec& spec) {
-  return std::ranges::max(spec.segments, {}, &Segment::to).to + 2;
-}
-
 Tube draw_once(Rng& rng, const TubeSpec& spec, int id) {
   Tube tube{.id = id, .radius = spec.radius, .mass = spec.mass, .nodes = {}, .edges = {}};
-  tube.nodes.push_back({spec.segments.front().from, Eigen::Vector3d::Zero()});
-  int next_id = first_inner_id(spec);
+  tube.nodes.push_back({1, Eigen::Vector3d::Zero()});
+  // The named nodes are one more than the segments, and the published files leave the id after them free.
+  int next_id = static_cast<int>(spec.segments.size()) + 3;
   for (const Segment& segment : spec.segments) draw_segment(rng, segment, next_id, tube);
   return tube;
 }

@@ -22,7 +22,7 @@ struct Segment {
 struct TubeSpec {
   double radius = 0.0125;  ///< m
   double mass = 0.5;       ///< kg
-  std::vector<Segment> segments{Segment{}};
+  std::vector<Segment> segments = std::vector<Segment>(1);
 };
 
 /// Throws InputError, with `where` before the field's name, for a spec of which no tube can be made:
