@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
@@ -15,5 +15,10 @@ std::vector<Color> label_colors(int tubes);
 
 /// Black: the null label's colour.
 inline constexpr Color null_color{0, 0, 0};
+
+/// The labels that label_colors(tubes) and null_color stand for. Throws InputError, naming `file` and the
+/// point, for any other colour.
+std::vector<std::int32_t> labels_from_colors(const std::vector<Color>& colors, int tubes,
+                                             const std::string& file);
 
 }  // namespace tanglebin

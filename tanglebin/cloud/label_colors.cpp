@@ -1,0 +1,107 @@
+#include "tanglebin/cloud/label_colors.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/scan/scan.hpp"
+
+namespace tanglebin {
+namespace {
+
+constexpr int most_tubes = 1'000'000;
+constexpr Color bin_color{128, 128, 128};
+
+// Vivid and neither dark nor pale: set apart from the bin's grey and from black, and room for millions. Of a
+// grid of such bounds these, with this first hue, keep the first twenty colours the furthest apart in CIELAB
+// (the nearest two by a ΔE of 21).
+constexpr double first_hue = 0.35;
+constexpr double least_saturation = 0.6;
+constexpr double most_saturation = 0.9;
+constexpr double least_value = 0.55;
+constexpr double most_value = 1.0;
+
+constexpr double golden_ratio = 1.6180339887498949;
+
+std::uint32_t packed(const Color& color) {
+  return std::uint32_t{color[0]} << 16 | std::uint32_t{color[1]} << 8 | std::uint32_t{color[2]};
+}
+
+double fraction(double x) {
+  return x - std::floor(x);
+}
+
+// The van der Corput sequence: the digits of i mirrored at the radix point (Niederreiter 1992,
+// Definition 3.1).
+double van_der_corput(unsigned i, unsigned base) {
+  double result = 0.0;
+  double digit_value = 1.0;
+  for (; i > 0; i /= base) {
+    digit_value /= base;
+    result += digit_value * (i % base);
+  }
+  return result;
+}
+
+std::uint8_t to_byte(double unit) {
+  return static_cast<std::uint8_t>(std::lround(255.0 * unit));
+}
+
+// Hue, saturation and value in [0, 1] (Smith 1978, "Color gamut transform pairs", the hexcone model).
+Color from_hsv(double hue, double saturation, double value) {
+  const auto channel = [&](double offset) {
+    const double k = std::fmod(offset + 6.0 * hue, 6.0);
+    return to_byte(value - value * saturation * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0));
+  };
+  return {channel(5.0), channel(3.0), channel(1.0)};
+}
+
+// The i-th of an endless sequence of well-spread colours; a few come back.
+Color candidate(unsigned i) {
+  const double saturation = std::lerp(least_saturation, most_saturation, van_der_corput(i, 2));
+  const double value = std::lerp(least_value, most_value, van_der_corput(i, 3));
+  return from_hsv(fraction(first_hue + i / golden_ratio), saturation, value);
+}
+
+}  // namespace
+
+std::vector<Color> label_colors(int tubes) {
+  if (tubes < 0 || tubes > most_tubes) {
+    throw InputError({"", 0, "tubes"}, std::to_string(tubes), fmt::format("0 to {}", most_tubes));
+  }
+  const auto size = static_cast<std::size_t>(tubes) + 1;
+  std::vector<Color> colors{bin_color};
+  colors.reserve(size);
+  std::unordered_set<std::uint32_t> taken(size);
+  for (unsigned i = 1; colors.size() < size; ++i) {
+    const Color color = candidate(i);
+    if (taken.insert(packed(color)).second) colors.push_back(color);
+  }
+  return colors;
+}
+
+std::vector<std::int32_t> labels_from_colors(const std::vector<Color>& colors, int tubes,
+                                             const std::string& file) {
+  std::unordered_map<std::uint32_t, std::int32_t> label_of{{packed(null_color), null_label}};
+  std::int32_t next_label = bin_label;
+  for (const Color& color : label_colors(tubes)) label_of.emplace(packed(color), next_label++);
+
+  std::vector<std::int32_t> labels;
+  labels.reserve(colors.size());
+  for (const Color& color : colors) {
+    const auto label = label_of.find(packed(color));
+    if (label == label_of.end()) {
+      throw InputError(
+          {file, 0, fmt::format("colour of point {}", labels.size() + 1)},
+          fmt::format("({}, {}, {})", color[0], color[1], color[2]),
+          fmt::format("black or one of the {} colours of a scene of {} tubes", tubes + 1, tubes));
+    }
+    labels.push_back(label->second);
+  }
+  return labels;
+}
+
+}  // namespace tanglebin
