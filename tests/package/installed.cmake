@@ -1,0 +1,22 @@
+cmake_minimum_required(VERSION 3.25)
+
+# Installs what BUILD holds, then configures, builds and runs examples/minimal against it.
+set(work ${BUILD}/tests/package)
+file(REMOVE_RECURSE ${work})
+
+function(run)
+  execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/installed)
+run(${CMAKE_COMMAND} -S ${SOURCE}/examples/minimal -B ${work}/minimal -G ${GENERATOR}
+    -D CMAKE_PREFIX_PATH=${work}/installed -D CMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${work}/minimal)
+
+execute_process(COMMAND ${work}/minimal/minimal OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+message("${output}")
+if(NOT output MATCHES "^[1-9][0-9]* points on 3 tubes\n$")
+  message(FATAL_ERROR "found the output above, expected a number of points on 3 tubes")
+endif()
+
+run(${work}/installed/bin/tanglebin --version)

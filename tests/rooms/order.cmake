@@ -1,0 +1,32 @@
+cmake_minimum_required(VERSION 3.25)
+
+# Fails where a room includes a header of a room to its right (docs/architecture.md).
+set(rooms base tube settle scan cloud model score dataset report cli)
+
+foreach(room IN LISTS rooms)
+  list(FIND rooms ${room} position)
+  file(GLOB sources ${SOURCE}/tanglebin/${room}/*.?pp)
+  foreach(source IN LISTS sources)
+    file(STRINGS ${source} includes REGEX "^#include \"")
+    foreach(include IN LISTS includes)
+      if(NOT include MATCHES "^#include \"tanglebin/([a-z]+)/[a-z0-9_]+\\.hpp\"$")
+        message(SEND_ERROR "${source}: found ${include}, expected #include \"tanglebin/<room>/<header>.hpp\"")
+        continue()
+      endif()
+      list(FIND rooms ${CMAKE_MATCH_1} included)
+      if(included EQUAL -1)
+        message(SEND_ERROR "${source}: ${include}: ${CMAKE_MATCH_1} is no room")
+      elseif(included GREATER position)
+        message(SEND_ERROR "${source}: ${include}: ${CMAKE_MATCH_1} is to the right of ${room}")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+
+# A folder that is no room would escape the rule.
+file(GLOB folders LIST_DIRECTORIES true RELATIVE ${SOURCE}/tanglebin ${SOURCE}/tanglebin/*)
+foreach(folder IN LISTS folders)
+  if(IS_DIRECTORY ${SOURCE}/tanglebin/${folder} AND NOT folder IN_LIST rooms)
+    message(SEND_ERROR "tanglebin/${folder} is not in the list of rooms")
+  endif()
+endforeach()
