@@ -58,6 +58,13 @@ TEST(TubeSpec, AcceptsTheExtremesThatStillMakeATube) {
             "none");
 }
 
+TEST(TubeSpec, ForgivesTheRoundingOfThreeTenths) {
+  EXPECT_EQ(complaint_after([](TubeSpec& s) {
+              s.segments[0] = {.length = 0.3, .cylinders_min = 3, .cylinders_max = 3, .cylinder_length_min = 0.1};
+            }),
+            "none");
+}
+
 TEST(TubeSpec, NamesASizeThatIsNotPositive) {
   EXPECT_EQ(complaint_after([](TubeSpec& s) { s.radius = 0; }),
             "tube.radius: found 0, expected a positive number");
