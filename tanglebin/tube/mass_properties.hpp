@@ -9,6 +9,7 @@ namespace tanglebin {
 /// Of a solid of uniform density.
 struct MassProperties {
   double mass;              ///< kg
+  double volume;            ///< m³
   Eigen::Vector3d centre;   ///< m, centre of mass in the tube's frame (world)
   Eigen::Matrix3d inertia;  ///< kg m², about the centre of mass, world axes
 };
