@@ -1,7 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string_view>
+
+#include "tanglebin/scan/ray.hpp"
 
 namespace tanglebin {
 
@@ -22,13 +25,20 @@ struct Camera {
 /// and the principal point at the image's centre.
 Camera downward_camera(int width, int height, double focal_length_px, const Eigen::Vector3d& position);
 
-/// Focal length in pixels of an image `width` pixels wide that spans `hfov` radians.
+/// Focal length in pixels of an image `width` pixels wide that spans `hfov` radians, 0 < hfov < π.
 double focal_length_from_hfov(int width, double hfov);
 
 /// "paper": 1920 x 1200, 1.22 rad, 2 m above the floor (Section 6.1 and the published worlds).
 /// "zivid-one-plus-l": the same place and size, focal length 2730 px (38.7° x 24.8°).
 /// Throws InputError for another name.
 Camera camera_preset(std::string_view name);
+
+/// The ray from the camera's centre through image coordinates (u, v).
+Ray ray_through(const Camera& camera, double u, double v);
+
+/// Image coordinates of a point (m, world frame), also where they lie outside of the image; nothing for a
+/// point that is not in front of the camera.
+std::optional<Eigen::Vector2d> project(const Camera& camera, const Eigen::Vector3d& point);
 
 /// Throws InputError naming the field under `scanner` that makes no camera.
 void validate(const Camera& camera);

@@ -38,9 +38,13 @@ struct Scan {
   std::vector<Pixel> pixels;  ///< window.width * window.height
 
   /// The pixel in column u, row v of the whole image; (u, v) must lie in the window.
-  const Pixel& at(int u, int v) const {
-    return pixels[static_cast<std::size_t>(v - window.top) * static_cast<std::size_t>(window.width) +
-                  static_cast<std::size_t>(u - window.left)];
+  const Pixel& at(int u, int v) const { return pixels[index(u, v)]; }
+  Pixel& at(int u, int v) { return pixels[index(u, v)]; }
+
+private:
+  std::size_t index(int u, int v) const {
+    return static_cast<std::size_t>(v - window.top) * static_cast<std::size_t>(window.width) +
+           static_cast<std::size_t>(u - window.left);
   }
 };
 

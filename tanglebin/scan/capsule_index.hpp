@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "tanglebin/tube/capsule.hpp"
+
+namespace tanglebin {
+
+/// All rays from one point whose directions deviate little from a central one.
+struct BeamShape {
+  Eigen::Vector3d origin;  ///< m, world frame
+  double spread;           ///< sine of the largest angle between the central direction and a ray
+};
+
+/// Says which capsules the rays of a beam may meet: an Embree scene of capsules, each thickened by the beam's
+/// spread at its distance, so that the beam's central ray meets the thickened capsule where any ray of the
+/// beam meets the true one. What is true for a ray of the beam is then up to ray_capsule().
+class CapsuleIndex {
+public:
+  /// For beams of this shape in any direction. Throws std::runtime_error where Embree fails.
+  CapsuleIndex(const std::vector<Capsule>& capsules, const BeamShape& beam);
+  ~CapsuleIndex();
+  CapsuleIndex(const CapsuleIndex&) = delete;
+  CapsuleIndex& operator=(const CapsuleIndex&) = delete;
+
+  /// Writes to `found`, in ascending order, the indices of all capsules that a ray of the beam around
+  /// `direction` (a unit vector) meets, and of a few that none does.
+  void candidates(const Eigen::Vector3d& direction, std::vector<std::size_t>& found) const;
+
+private:
+  struct Embree;
+
+  Eigen::Vector3d origin_;             ///< of all rays, m
+  Eigen::Vector3d centre_;             ///< of a sphere around all thickened capsules, m
+  double radius_ = 0;                  ///< of that sphere, m
+  std::vector<Eigen::Vector3d> axes_;  ///< of the capsules, unit vectors
+  std::vector<std::size_t> stubs_;     ///< capsules too short for Embree
+  std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace tanglebin

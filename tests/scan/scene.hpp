@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "tanglebin/base/random.hpp"
+#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/settle/bin.hpp"
+#include "tanglebin/tube/tube.hpp"
+
+namespace tanglebin::test {
+
+using Eigen::Vector3d;
+
+inline Vector3d random_point(Rng& rng, const Eigen::AlignedBox3d& box) {
+  Vector3d point;
+  for (int axis = 0; axis < 3; ++axis) point[axis] = uniform_real(rng, box.min()[axis], box.max()[axis]);
+  return point;
+}
+
+inline Vector3d random_direction(Rng& rng) {
+  const Eigen::AlignedBox3d cube(Vector3d::Constant(-1), Vector3d::Constant(1));
+  Vector3d direction = random_point(rng, cube);
+  while (direction.norm() > 1 || direction.norm() < 0.1) direction = random_point(rng, cube);
+  return direction.normalized();
+}
+
+/// A tube through these points.
+inline Tube chain(int id, double radius, const std::vector<Vector3d>& points) {
+  Tube tube{.id = id, .radius = radius, .mass = 0.5, .nodes = {}, .edges = {}};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    tube.nodes.push_back({static_cast<int>(i) + 1, points[i]});
+    if (i == 0) continue;
+    const Vector3d step = points[i] - points[i - 1];
+    tube.edges.push_back({i - 1, i, static_cast<int>(i), (points[i] + points[i - 1]) / 2,
+                          Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), step), step.norm()});
+  }
+  return tube;
+}
+
+/// Bent tubes of half a metre strewn over the bin. They pass through one another and through the walls: the
+/// harder for a scanner.
+inline std::vector<Tube> random_pile(Rng& rng, int tubes, const Bin& bin) {
+  constexpr int cylinders = 7;
+  const Eigen::AlignedBox3d space(Vector3d(-bin.length / 2, -bin.width / 2, 0.0125),
+                                  Vector3d(bin.length / 2, bin.width / 2, bin.height));
+  std::vector<Tube> pile;
+  for (int id = 1; id <= tubes; ++id) {
+    std::vector<Vector3d> points = {random_point(rng, space)};
+    Vector3d direction = random_direction(rng);
+    for (int i = 0; i < cylinders; ++i) {
+      direction = (direction + 0.5 * random_direction(rng)).normalized();
+      points.push_back(points.back() + 0.5 / cylinders * direction);
+    }
+    pile.push_back(chain(id, 0.0125, points));
+  }
+  return pile;
+}
+
+/// A camera at `position` that looks at `target`.
+inline Camera camera_at(const Vector3d& position, const Vector3d& target, int width, int height,
+                        double hfov) {
+  Camera camera = downward_camera(width, height, focal_length_from_hfov(width, hfov), position);
+  const Vector3d z = (target - position).normalized();
+  const Vector3d x = z.unitOrthogonal();
+  camera.pose.linear() << x, z.cross(x), z;
+  return camera;
+}
+
+}  // namespace tanglebin::test
