@@ -103,8 +103,8 @@ Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSetti
 
 void validate(const SettleSettings& settings) {
   const auto require = [](bool good, const char* field, double found, const char* expected) {
-    if (!good)
-      throw InputError({.field = fmt::format("settle.{}", field)}, fmt::format("{}", found), expected);
+    if (good) return;
+    throw InputError({"", 0, fmt::format("settle.{}", field)}, fmt::format("{}", found), expected);
   };
   const auto positive = [&](double value, const char* field) {
     require(std::isfinite(value) && value > 0, field, value, "a positive number");
