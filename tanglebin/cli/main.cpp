@@ -23,7 +23,10 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);  // runs the chosen command's callback
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : exit_usage;
+    // A command that ends early by its own choice says with which status; all else is wrong usage.
+    const int status = app.exit(error);
+    const bool is_usage = dynamic_cast<const CLI::RuntimeError*>(&error) == nullptr;
+    return status != 0 && is_usage ? exit_usage : status;
   }
   return 0;
 }

@@ -1,11 +1,118 @@
-#include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cloud/cloud.hpp"
+#include "tanglebin/cloud/pcd.hpp"
+#include "tanglebin/cloud/ply.hpp"
+#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/dataset/images.hpp"
+#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/scan/scanner.hpp"
+#include "tanglebin/settle/bin.hpp"
 
 namespace tanglebin::cli {
+namespace {
+
+struct ScanArguments {
+  std::string configuration;
+  std::string out;
+  std::string bin = "paper";
+  std::string scanner = "paper";
+  bool with_bin = false;
+  std::optional<std::string> depth;
+  std::optional<std::string> labels;
+  bool json = false;
+};
+
+int largest_id(const std::vector<Tube>& tubes) {
+  int largest = 0;
+  for (const Tube& tube : tubes) largest = std::max(largest, tube.id);
+  return largest;
+}
+
+// PLY, or an organized PCD where the file's name asks for it.
+std::string cloud_bytes(const ScanArguments& arguments, const Scan& view, int tubes) {
+  const CloudOf what = arguments.with_bin ? CloudOf::tubes_and_bin : CloudOf::tubes;
+  std::ostringstream out;
+  if (std::filesystem::path(arguments.out).extension() == ".pcd") {
+    write_pcd(out, organized_cloud_from_scan(view, what, tubes));
+  } else {
+    write_ply(out, cloud_from_scan(view, what, tubes));
+  }
+  return std::move(out).str();
+}
+
+void print_summary(const ScanArguments& arguments, const Scan& view, const std::vector<Tube>& tubes) {
+  std::vector<std::size_t> points(static_cast<std::size_t>(largest_id(tubes)) + 1);
+  for (const Pixel& pixel : view.pixels) {
+    if (pixel.label != null_label) ++points[static_cast<std::size_t>(pixel.label)];
+  }
+  if (arguments.json) {
+    nlohmann::ordered_json json{{"cloud", arguments.out}, {"bin_points", points[bin_label]}};
+    for (const Tube& tube : tubes) {
+      json["tubes"].push_back({{"label", tube.id}, {"points", points[static_cast<std::size_t>(tube.id)]}});
+    }
+    fmt::print("{}\n", json.dump());
+    return;
+  }
+  std::size_t tube_points = 0;
+  for (const Tube& tube : tubes) tube_points += points[static_cast<std::size_t>(tube.id)];
+  fmt::print("{}: {} points on {} tubes, {} on the bin{}\n", arguments.out, tube_points, tubes.size(),
+             points[bin_label], arguments.with_bin ? "" : " (left out)");
+}
+
+void scan_configuration(const ScanArguments& arguments) {
+  const std::vector<Tube> tubes =
+      read_input(arguments.configuration, [](auto&&... from) { return read_configuration(from...); });
+  const Scan view = scan(tubes, bin_preset(arguments.bin), camera_preset(arguments.scanner));
+  write_output(arguments.out, cloud_bytes(arguments, view, largest_id(tubes)));
+  if (arguments.depth) {
+    write_output(*arguments.depth, depth_png(view));
+    write_output(std::filesystem::path(*arguments.depth).replace_extension(".json").string(),
+                 camera_json(view.camera));
+  }
+  if (arguments.labels) write_output(*arguments.labels, label_png(view));
+  if (arguments.out != standard_stream) print_summary(arguments, view, tubes);
+}
+
+}  // namespace
 
 void add_scan(CLI::App& app) {
-  app.add_subcommand("scan");
+  const auto arguments = std::make_shared<ScanArguments>();
+  CLI::App* command = app.add_subcommand("scan", "Scan a configuration of tubes into a labelled cloud");
+  command
+      ->add_option("configuration", arguments->configuration, "Configuration (text); - reads standard input")
+      ->required();
+  command
+      ->add_option("--out", arguments->out,
+                   "Cloud: .ply, or .pcd for an organized one; - writes PLY to standard output")
+      ->required();
+  command->add_option("--bin", arguments->bin, "Bin that the tubes lie in: paper or published")
+      ->capture_default_str();
+  command->add_option("--scanner", arguments->scanner, "Camera: paper or zivid-one-plus-l")
+      ->capture_default_str();
+  command->add_flag("--with-bin", arguments->with_bin, "Give the bin's points too, label 0");
+  command->add_option("--depth", arguments->depth,
+                      "Also a 16-bit depth image (PNG) and its camera beside it (JSON)");
+  command->add_option("--labels", arguments->labels, "Also a 16-bit label image (PNG)");
+  command->add_flag("--json", arguments->json, "Print the summary as JSON");
+  command->footer(
+      "Example:\n  tanglebin scan dataset/A10/tube_configurations/1.txt --out cloud.ply --with-bin\n"
+      "Formats: docs/formats.md.");
+  command->callback([arguments] { scan_configuration(*arguments); });
 }
 
 }  // namespace tanglebin::cli

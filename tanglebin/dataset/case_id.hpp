@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +15,7 @@ struct CaseId {
   int tubes = 1;   ///< how many are in the scene
   int number = 1;  ///< 1, 2, … of this set and number of tubes
 
-  bool operator==(const CaseId&) const = default;
+  auto operator<=>(const CaseId&) const = default;
 };
 
 /// Every case of a valid recipe: by set, number of tubes (both in the recipe's order) and number.

@@ -26,9 +26,9 @@ struct TubeSpec {
 };
 
 /// Throws InputError for a spec of which no tube can be made: names the field (`where`.radius, and for the
-/// second of several segments `where`.segment[1].length) and why: cylinders_max · cylinder_length_min > length,
-/// min > max, an angle out of [0, π], a size or mass that is not positive, more than 1000 cylinders, a segment
-/// that starts nowhere or closes a loop, named nodes that are not 1, 2, …, segments + 1.
+/// second of several segments `where`.segment[1].length) and why: cylinders_max · cylinder_length_min >
+/// length, min > max, an angle out of [0, π], a size or mass that is not positive, more than 1000 cylinders,
+/// a segment that starts nowhere or closes a loop, named nodes that are not 1, 2, …, segments + 1.
 void validate(const TubeSpec& spec, const std::string& where = "tube");
 
 }  // namespace tanglebin

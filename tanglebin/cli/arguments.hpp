@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <string_view>
+
+#include "tanglebin/dataset/safe_file.hpp"
+
+namespace tanglebin::cli {
+
+/// What stands for standard input or output in place of a file's name.
+inline constexpr const char* standard_stream = "-";
+
+/// Calls `read` with the file's path, or with standard input and a name for it where `file` is "-".
+template <typename Read>
+auto read_input(const std::string& file, const Read& read) {
+  if (file == standard_stream) return read(std::cin, std::string("standard input"));
+  return read(std::filesystem::path(file));
+}
+
+/// Writes the bytes to the file, whole or not at all, or to standard output where `file` is "-".
+void write_output(const std::string& file, std::string_view bytes);
+
+/// A range of whole numbers, both ends in it.
+struct Range {
+  int first;
+  int last;
+};
+
+/// "3" or "3-7". Throws InputError naming `option` for anything else.
+Range parse_range(std::string_view text, const std::string& option);
+
+/// Part number `index` of `count`, both from 1.
+struct Shard {
+  int index = 1;
+  int count = 1;
+};
+
+/// "2/8". Throws InputError naming `option` for anything else.
+Shard parse_shard(std::string_view text, const std::string& option);
+
+}  // namespace tanglebin::cli

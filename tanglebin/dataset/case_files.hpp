@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tanglebin/dataset/case_id.hpp"
+#include "tanglebin/dataset/recipe.hpp"
+#include "tanglebin/dataset/simulate.hpp"
+
+namespace tanglebin {
+
+/// A file of a dataset.
+struct CaseFile {
+  std::string path;   ///< relative to the dataset's directory: "A10/plys/1.ply"
+  std::string bytes;  ///< all of it
+};
+
+/// The files of a case, those that recipe.output asks for (docs/formats.md).
+std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const Scene& scene);
+
+}  // namespace tanglebin

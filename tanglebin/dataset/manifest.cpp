@@ -1,0 +1,91 @@
+#include "tanglebin/dataset/manifest.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "tanglebin/base/error.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json id_json(const CaseId& id) {
+  return {{"set", id.set}, {"tubes", id.tubes}, {"case", id.number}};
+}
+
+CaseId id_from(const Json& json) {
+  return {json.at("set").get<std::string>(), json.at("tubes").get<int>(), json.at("case").get<int>()};
+}
+
+// Reads one line; whatever is wrong with it becomes an InputError that says where.
+template <typename Read>
+auto read_line(const std::string& line, const std::string& file, std::size_t number, const Read& read) {
+  try {
+    return read(Json::parse(line));
+  } catch (const Json::exception& error) {
+    throw InputError({file, number, ""}, error.what());
+  }
+}
+
+}  // namespace
+
+std::string to_json(const CaseRecord& record) {
+  Json json = id_json(record.id);
+  json["seed"] = record.seed;
+  json["simulated"] = record.simulated;
+  json["largest_overlap"] = record.largest_overlap;
+  json["points"] = record.points;
+  json["rejected"] = Json::array();
+  for (const Rejection& rejection : record.rejections) {
+    json["rejected"].push_back(
+        {{"seed", rejection.seed}, {"simulated", rejection.simulated}, {"fault", rejection.fault}});
+  }
+  json["files"] = Json::array();
+  for (const FileRecord& file : record.files) {
+    json["files"].push_back({{"path", file.path}, {"bytes", file.bytes}, {"sha256", file.sha256}});
+  }
+  return json.dump();
+}
+
+std::string to_json(const TimesRecord& record) {
+  Json json = id_json(record.id);
+  json["generate"] = record.times.generate;
+  json["settle"] = record.times.settle;
+  json["scan"] = record.times.scan;
+  json["write"] = record.times.write;
+  json["peak_memory"] = record.peak_memory;
+  return json.dump();
+}
+
+CaseRecord case_record(const std::string& json, const std::string& file, std::size_t line) {
+  return read_line(json, file, line, [](const Json& value) {
+    CaseRecord record{id_from(value),
+                      value.at("seed").get<std::uint64_t>(),
+                      value.at("simulated").get<double>(),
+                      value.at("largest_overlap").get<double>(),
+                      value.at("points").get<std::size_t>(),
+                      {},
+                      {}};
+    for (const Json& rejection : value.at("rejected")) {
+      record.rejections.push_back({rejection.at("seed").get<std::uint64_t>(),
+                                   rejection.at("simulated").get<double>(),
+                                   rejection.at("fault").get<std::string>()});
+    }
+    for (const Json& entry : value.at("files")) {
+      record.files.push_back({entry.at("path").get<std::string>(), entry.at("bytes").get<std::size_t>(),
+                              entry.at("sha256").get<std::string>()});
+    }
+    return record;
+  });
+}
+
+TimesRecord times_record(const std::string& json, const std::string& file, std::size_t line) {
+  return read_line(json, file, line, [](const Json& value) {
+    return TimesRecord{id_from(value),
+                       {value.at("generate").get<double>(), value.at("settle").get<double>(),
+                        value.at("scan").get<double>(), value.at("write").get<double>()},
+                       value.at("peak_memory").get<double>()};
+  });
+}
+
+}  // namespace tanglebin

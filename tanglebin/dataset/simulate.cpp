@@ -1,0 +1,114 @@
+#include "tanglebin/dataset/simulate.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/base/random.hpp"
+#include "tanglebin/scan/scanner.hpp"
+#include "tanglebin/settle/settle.hpp"
+#include "tanglebin/settle/spawn.hpp"
+#include "tanglebin/tube/generate.hpp"
+
+namespace tanglebin {
+namespace {
+
+/// Adds the time from its construction to its destruction to a sum.
+class Stopwatch {
+public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+  using Clock = std::chrono::steady_clock;
+  double& sum_;
+  Clock::time_point start_ = Clock::now();
+};
+
+const TubeSpec& spec_of(const Recipe& recipe, const std::string& set) {
+  const auto found = std::ranges::find(recipe.sets, set, &SetRecipe::name);
+  if (found == recipe.sets.end()) throw InputError({"", 0, "set"}, set, "a set of the recipe");
+  return found->spec;
+}
+
+// Algorithm 1, above the bin.
+std::vector<Tube> draw_tubes(Rng& rng, const TubeSpec& spec, int count, const Bin& bin) {
+  std::vector<Tube> tubes;
+  for (int id = 1; id <= count; ++id) tubes.push_back(draw_tube(rng, spec, id));
+  spawn(rng, tubes, bin);
+  return tubes;
+}
+
+// Adding zero turns a negative zero into a positive one.
+double to_billionth(double value) {
+  return std::round(value * 1e9) / 1e9 + 0.0;
+}
+
+void round_to_nanometres(std::vector<Tube>& tubes) {
+  const auto round_vector = [](auto&& vector) { vector = vector.unaryExpr(&to_billionth).eval(); };
+  for (Tube& tube : tubes) {
+    for (Node& node : tube.nodes) round_vector(node.position);
+    for (Edge& edge : tube.edges) {
+      round_vector(edge.centre);
+      round_vector(edge.rotation.coeffs());
+      edge.length = to_billionth(edge.length);
+    }
+  }
+}
+
+std::string no_valid_scene(const CaseId& id, const std::vector<Rejection>& rejections) {
+  // Faults that differ only in their numbers are one kind.
+  std::map<std::string, int> counts;
+  for (const Rejection& rejection : rejections) {
+    ++counts[rejection.fault.substr(0, rejection.fault.find_first_of("0123456789"))];
+  }
+  std::string text = fmt::format("no valid scene of {} tubes in {} attempts:", id.tubes, rejections.size());
+  const char* separator = " ";
+  for (const auto& [fault, count] : counts) {
+    text += fmt::format("{}{} x {}", separator, count, fault);
+    separator = ", ";
+  }
+  return text + "; try fewer tubes, a larger bin or more attempts";
+}
+
+}  // namespace
+
+Scene simulate(const Recipe& recipe, const CaseId& id) {
+  const TubeSpec& spec = spec_of(recipe, id.set);
+  StageTimes times;
+  std::vector<Rejection> rejections;
+  for (int attempt = 1; attempt <= recipe.attempts; ++attempt) {
+    const std::uint64_t seed = attempt_seed(recipe.seed, id.set, id.tubes, id.number, attempt);
+    Rng rng(seed);
+    const std::vector<Tube> tubes = [&] {
+      const Stopwatch watch(times.generate);
+      return draw_tubes(rng, spec, id.tubes, recipe.bin);
+    }();
+    Settled heap = [&] {
+      const Stopwatch watch(times.settle);
+      return settle(tubes, recipe.bin, recipe.settle, rng());
+    }();
+    if (!heap.fault.empty()) {
+      rejections.push_back({seed, heap.simulated, heap.fault});
+      continue;
+    }
+    round_to_nanometres(heap.tubes);
+    Scan view = [&] {
+      const Stopwatch watch(times.scan);
+      return scan(heap.tubes, recipe.bin, recipe.camera);
+    }();
+    return {std::move(heap.tubes), std::move(view),       seed, heap.simulated,
+            heap.largest_overlap,  std::move(rejections), times};
+  }
+  throw InputError({"", 0, fmt::format("{}/{}", folder_name(id.set, id.tubes), id.number)},
+                   no_valid_scene(id, rejections));
+}
+
+}  // namespace tanglebin
