@@ -11,8 +11,8 @@ struct Capsule {
   double radius;
 };
 
-/// The closest points of two segments p0–p1 and q0–q1: p0 + s (p1 − p0) and q0 + t (q1 − q0), s and t in [0,
-/// 1].
+/// The closest points of two segments p0–p1 and q0–q1: p0 + s (p1 − p0) and q0 + t (q1 − q0), with s and t
+/// in [0, 1].
 struct SegmentPair {
   double distance;
   double s;

@@ -9,11 +9,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tanglebin/base/error.hpp"
 #include "tests/support/statistics.hpp"

@@ -7,7 +7,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <vector>
 
 #include "tanglebin/tube/generate.hpp"
 #include "tests/tube/example_tubes.hpp"
@@ -43,7 +45,7 @@ Tube reversed(Tube tube) {
 // A reference that shares nothing with the quadrature: points spread evenly over each capsule's bounding
 // cylinder (the R3 sequence of M. Roberts), each counted once in the union.
 MassProperties sampled_mass_properties(const Tube& tube) {
-  constexpr int samples = 100000;
+  constexpr int samples = 50000;
   const Vector3d step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
   const std::vector<Capsule> all = capsules(tube);
   double volume = 0;
@@ -51,6 +53,9 @@ MassProperties sampled_mass_properties(const Tube& tube) {
   Matrix3d second = Matrix3d::Zero();
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Edge& edge = tube.edges[k];
+    std::vector<Capsule> near;  // the capsule itself and those that may share its points
+    std::ranges::copy_if(all, std::back_inserter(near),
+                         [&](const Capsule& other) { return surface_distance(other, all[k]) <= 0; });
     const double height = edge.length + 2 * tube.radius;
     const double sample_volume = pi * tube.radius * tube.radius * height / samples;
     for (int i = 0; i < samples; ++i) {
@@ -64,7 +69,7 @@ MassProperties sampled_mass_properties(const Tube& tube) {
         return closest_points(point, point, capsule.a, capsule.b).distance <= capsule.radius;
       };
       if (!holds_point(all[k])) continue;
-      const double share = sample_volume / static_cast<double>(std::ranges::count_if(all, holds_point));
+      const double share = sample_volume / static_cast<double>(std::ranges::count_if(near, holds_point));
       volume += share;
       first += share * point;
       second += share * point * point.transpose();
@@ -110,8 +115,8 @@ TEST(MassProperties, OfABentJointHaveTheVolumeOfTheClosedForm) {
 // Within 0.1 % and 0.2 mm, most of which is left to the reference's own error.
 TEST(MassProperties, OfDrawnTubesAreThoseOfSampledPoints) {
   Rng rng(1);
-  for (const TubeSpec& spec : {test::chain_spec(30), test::chain_spec(45), test::chain_spec(120),
-                               test::tree_spec(), test::tree_spec()}) {
+  for (const TubeSpec& spec :
+       {test::chain_spec(30), test::chain_spec(45), test::chain_spec(120), test::tree_spec()}) {
     const Tube tube = draw_tube(rng, spec, 1);
     const MassProperties found = mass_properties(tube);
     const MassProperties expected = sampled_mass_properties(tube);
