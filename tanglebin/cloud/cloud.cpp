@@ -16,7 +16,7 @@ bool is_point(const Pixel& pixel, CloudOf what) {
 
 }  // namespace
 
-void check_shape(const PointCloud& cloud) {
+void check_cloud(const PointCloud& cloud) {
   const std::size_t points = cloud.points.size();
   if (!cloud.labels.empty() && cloud.labels.size() != points) {
     throw std::invalid_argument("point cloud: as many labels as points are needed, or none");
@@ -26,6 +26,9 @@ void check_shape(const PointCloud& cloud) {
   }
   if (cloud.width * cloud.height != points) {
     throw std::invalid_argument("point cloud: width * height must be the number of points");
+  }
+  if (std::ranges::any_of(cloud.labels, [](std::int32_t label) { return label < null_label; })) {
+    throw std::invalid_argument("point cloud: no label is below -1");
   }
 }
 

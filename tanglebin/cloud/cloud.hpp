@@ -24,8 +24,9 @@ struct PointCloud {
   std::optional<Eigen::Isometry3d> viewpoint;  ///< sensor frame → world frame, where known
 };
 
-/// Throws std::invalid_argument for arrays of different lengths, or other than width * height points.
-void check_shape(const PointCloud& cloud);
+/// Throws std::invalid_argument for arrays of different lengths, other than width * height points, or a label
+/// below −1.
+void check_cloud(const PointCloud& cloud);
 
 /// Which pixels of a scan become points.
 enum class CloudOf { tubes, tubes_and_bin };

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <istream>
 #include <system_error>
@@ -9,7 +10,6 @@
 namespace tanglebin::cloud_format {
 namespace {
 
-constexpr std::string_view white_space = " \t\v\f\r";
 constexpr std::size_t longest_quote = 40;  // characters
 
 }  // namespace
@@ -61,11 +61,12 @@ std::ifstream open_cloud(const std::filesystem::path& file) {
 
 void split(std::string_view line, std::vector<std::string_view>& words) {
   words.clear();
-  std::size_t begin = line.find_first_not_of(white_space);
-  while (begin != std::string_view::npos) {
-    const std::size_t end = std::min(line.find_first_of(white_space, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(white_space, end);
+  const auto is_space = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
+  const auto* begin = std::ranges::find_if_not(line, is_space);
+  while (begin != line.end()) {
+    const auto* const end = std::find_if(begin, line.end(), is_space);
+    words.emplace_back(begin, end);
+    begin = std::find_if_not(end, line.end(), is_space);
   }
 }
 

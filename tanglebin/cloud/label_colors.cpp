@@ -2,9 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/scan/scan.hpp"
@@ -34,6 +34,11 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
+// Plain arithmetic, unlike std::lerp, and so the same with every standard library.
+double between(double low, double high, double t) {
+  return low + t * (high - low);
+}
+
 // The van der Corput sequence: the digits of i mirrored at the radix point (Niederreiter 1992,
 // Definition 3.1).
 double van_der_corput(unsigned i, unsigned base) {
@@ -61,8 +66,8 @@ Color from_hsv(double hue, double saturation, double value) {
 
 // The i-th of an endless sequence of well-spread colours; a few come back.
 Color candidate(unsigned i) {
-  const double saturation = std::lerp(least_saturation, most_saturation, van_der_corput(i, 2));
-  const double value = std::lerp(least_value, most_value, van_der_corput(i, 3));
+  const double saturation = between(least_saturation, most_saturation, van_der_corput(i, 2));
+  const double value = between(least_value, most_value, van_der_corput(i, 3));
   return from_hsv(fraction(first_hue + i / golden_ratio), saturation, value);
 }
 
@@ -75,10 +80,12 @@ std::vector<Color> label_colors(int tubes) {
   const auto size = static_cast<std::size_t>(tubes) + 1;
   std::vector<Color> colors{bin_color};
   colors.reserve(size);
-  std::unordered_set<std::uint32_t> taken(size);
+  std::vector<bool> taken(std::size_t{1} << 24);  // a bit for each colour there is
   for (unsigned i = 1; colors.size() < size; ++i) {
     const Color color = candidate(i);
-    if (taken.insert(packed(color)).second) colors.push_back(color);
+    if (taken[packed(color)]) continue;
+    taken[packed(color)] = true;
+    colors.push_back(color);
   }
   return colors;
 }

@@ -33,12 +33,12 @@ struct Header {
 // ---- header
 
 // What may come in the vertices, what it means to a cloud and how it may be stored.
-struct Known {
+struct KnownProperty {
   std::string_view name;
   Meaning meaning;
   std::string_view types;
 };
-constexpr std::array<Known, 7> known_properties{{
+constexpr std::array<KnownProperty, 7> known_properties{{
     {"x", Meaning::x, "float or double"},
     {"y", Meaning::y, "float or double"},
     {"z", Meaning::z, "float or double"},
@@ -55,8 +55,9 @@ Encoding parse_format(const CloudInput& input, const Words& words) {
       {"binary_big_endian", Encoding::big_endian},
   };
   const std::string expected = "ascii, binary_little_endian or binary_big_endian, version 1.0";
-  if (words.size() != 3)
+  if (words.size() != 3) {
     throw InputError(input.place("format"), fmt::format("{} words", words.size() - 1), expected);
+  }
   const auto encoding = encodings.find(words[1]);
   if (encoding == encodings.end()) throw InputError(input.place("format"), quote(words[1]), expected);
   if (words[2] != "1.0") throw InputError(input.place("format"), "version " + quote(words[2]), "1.0");
@@ -110,7 +111,7 @@ Property parse_property(const CloudInput& input, const Words& words) {
 
 // Gives a property of the vertices its meaning, if it has any to a cloud.
 void recognize(const CloudInput& input, Property& property, std::string_view type) {
-  const auto known = std::ranges::find(known_properties, property.name, &Known::name);
+  const auto known = std::ranges::find(known_properties, property.name, &KnownProperty::name);
   if (known == known_properties.end()) return;
   property.meaning = known->meaning;
   if (property.length_type || !can_be(property.meaning, property.type)) {
@@ -159,9 +160,9 @@ void check_vertices(const CloudInput& input, const Header& header) {
   const auto vertices = std::ranges::find(header.elements, vertex, &Element::name);
   if (vertices == header.elements.end()) throw InputError(input.place_in_file(), "has no element vertex");
   for (const auto name : {"x", "y", "z"}) expect_property(input, *vertices, name);
-  const bool coloured =
+  const bool has_color =
       find(*vertices, Meaning::red) || find(*vertices, Meaning::green) || find(*vertices, Meaning::blue);
-  if (!coloured) return;
+  if (!has_color) return;
   for (const auto name : {"red", "green", "blue"}) expect_property(input, *vertices, name);
 }
 
@@ -169,8 +170,9 @@ void check_header(const CloudInput& input, const Header& header) {
   if (!header.encoding) throw InputError(input.place_in_file(), "has no format line");
   for (const Element& element : header.elements) {
     // Any number of them would take no data at all.
-    if (element.properties.empty())
+    if (element.properties.empty()) {
       throw InputError(input.place_in_file(element.name), "element without properties");
+    }
   }
   check_vertices(input, header);
 }
@@ -210,6 +212,14 @@ PointCloud read_vertices(CloudInput& input, Encoding encoding, const Element& ve
 
 void skip_element(CloudInput& input, Encoding encoding, const Element& element) {
   read_records(input, encoding, element, [](const Records&) {});
+}
+
+void expect_end(CloudInput& input, Encoding encoding) {
+  if (encoding == Encoding::ascii) {
+    expect_no_more_lines(input);
+  } else if (!input.at_end()) {
+    throw InputError(input.place_in_file(), "more data after the last element than the header says");
+  }
 }
 
 // ---- writing
@@ -269,7 +279,7 @@ PointCloud read_ply(const std::filesystem::path& file) {
 }
 
 void write_ply(std::ostream& out, const PointCloud& cloud) {
-  check_shape(cloud);
+  check_cloud(cloud);
   check_finite(cloud);
   std::string ply = header_of(cloud);
   const std::size_t header_size = ply.size();

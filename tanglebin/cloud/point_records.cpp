@@ -88,15 +88,16 @@ std::string what_fits() {
 }
 
 template <class T>
-T parse(std::string_view word, const InputPlace& place) {
+T parse(const CloudInput& input, const Property& property, std::string_view word) {
   const auto value = to_number<T>(word);
-  if (!value) throw InputError(place, quote(word), what_fits<T>());
+  if (!value) throw InputError(input.place(property.name), quote(word), what_fits<T>());
   return *value;
 }
 
-void parse_value(std::string_view word, Scalar type, const InputPlace& place, std::byte* to) {
-  visit(type, [&]<class T>(std::type_identity<T>) {
-    const T value = parse<T>(word, place);
+// Stores the number as it is in memory.
+void parse_value(const CloudInput& input, const Property& property, std::string_view word, std::byte* to) {
+  visit(property.type, [&]<class T>(std::type_identity<T>) {
+    const T value = parse<T>(input, property, word);
     std::memcpy(to, &value, sizeof(T));
   });
 }
@@ -107,7 +108,7 @@ std::size_t words_due(const CloudInput& input, const Element& element,
   std::size_t due = 0;
   for (const Property& property : element.properties) {
     const bool has_length = property.length_type && due < words.size();
-    if (has_length) due += parse<std::uint32_t>(words[due], input.place(property.name));
+    if (has_length) due += parse<std::uint32_t>(input, property, words[due]);
     due += property.count;  // of a list: the length itself
   }
   return due;
@@ -121,22 +122,21 @@ void parse_record(const CloudInput& input, const Element& element, const std::ve
   }
   std::size_t word = 0;
   for (const Property& property : element.properties) {
-    if (property.length_type) word += parse<std::uint32_t>(words[word], input.place());
-    if (property.meaning != Meaning::other) {
-      parse_value(words[word], property.type, input.place(property.name), record);
-    }
+    if (property.length_type) word += parse<std::uint32_t>(input, property, words[word]);
+    if (property.meaning != Meaning::other) parse_value(input, property, words[word], record);
     word += property.count;
     record += size_of(property);
   }
 }
 
 std::size_t read_text_run(CloudInput& input, const Element& element, std::byte* records, std::size_t count) {
+  const std::size_t size = record_size(element);
   std::vector<std::string_view> words;
   for (std::size_t i = 0; i < count; ++i) {
     const auto line = input.next_line();
     if (!line) return i;
     split(*line, words);
-    parse_record(input, element, words, records + i * record_size(element));
+    parse_record(input, element, words, records + i * size);
   }
   return count;
 }
@@ -192,7 +192,8 @@ std::string shown(double coordinate) {
 // A label as it is in the file, if it is one.
 template <class T>
 std::optional<std::int32_t> as_label(T value) {
-  if (std::in_range<std::int32_t>(value)) return static_cast<std::int32_t>(value);
+  if (std::in_range<std::int32_t>(value) && std::cmp_greater_equal(value, null_label))
+    return static_cast<std::int32_t>(value);
   if constexpr (std::is_same_v<T, std::uint32_t>) {
     if (value == unsigned_null_label) return null_label;
   }
@@ -268,12 +269,7 @@ void read_records(CloudInput& input, Encoding encoding, const Element& element,
   }
 }
 
-void expect_end(CloudInput& input, Encoding encoding) {
-  if (encoding != Encoding::ascii) {
-    if (!input.at_end())
-      throw InputError(input.place_in_file(), "more data after the last point than the header says");
-    return;
-  }
+void expect_no_more_lines(CloudInput& input) {
   while (const auto line = input.next_line()) {
     if (!split(*line).empty()) throw InputError(input.place(), quote(*line), "the end of the file");
   }
@@ -374,7 +370,8 @@ void PointDecoder::decode_labels(const Property& property, const Column& column)
     if constexpr (std::is_integral_v<T>) {
       for_each_value<T>(column, order_, [&](std::size_t point, T value) {
         const auto label = as_label(value);
-        if (!label) throw InputError(place(property, point), fmt::format("{}", value), "a label of 32 bits");
+        if (!label)
+          throw InputError(place(property, point), fmt::format("{}", value), "a label from -1 to 2147483647");
         labels[point] = *label;
       });
     }

@@ -63,8 +63,8 @@ struct Records {
 void read_records(CloudInput& input, Encoding encoding, const Element& element,
                   const std::function<void(const Records&)>& consume);
 
-/// Throws InputError where anything but blank lines (ascii) follows.
-void expect_end(CloudInput& input, Encoding encoding);
+/// Throws InputError where anything but blank lines follows.
+void expect_no_more_lines(CloudInput& input);
 
 /// The values of one property of points [first_point, first_point + count), `stride` bytes apart.
 struct Column {

@@ -1,0 +1,31 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <string>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/cloud/pcd.hpp"
+
+// Any bytes are a cloud or an InputError, and a cloud that was read comes back the same from what is written.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::istringstream file(std::string(reinterpret_cast<const char*>(data), size));
+  tanglebin::PointCloud cloud;
+  try {
+    cloud = tanglebin::read_pcd(file, "fuzz.pcd");
+  } catch (const tanglebin::InputError&) {
+    return 0;
+  }
+  std::stringstream copy;
+  tanglebin::write_pcd(copy, cloud);
+  const tanglebin::PointCloud back = tanglebin::read_pcd(copy, "copy.pcd");
+  const bool same_shape = back.width == cloud.width && back.height == cloud.height;
+  const auto same_point = [](const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+    return std::memcmp(a.data(), b.data(), sizeof(a)) == 0;  // NaN too
+  };
+  const bool same_points = std::ranges::equal(back.points, cloud.points, same_point);
+  if (!same_shape || !same_points || back.labels != cloud.labels || back.colors != cloud.colors) std::abort();
+  return 0;
+}

@@ -1,0 +1,24 @@
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/cloud/ply.hpp"
+
+// Any bytes are a cloud or an InputError, and a cloud that was read comes back the same from what is written.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::istringstream file(std::string(reinterpret_cast<const char*>(data), size));
+  tanglebin::PointCloud cloud;
+  try {
+    cloud = tanglebin::read_ply(file, "fuzz.ply");
+  } catch (const tanglebin::InputError&) {
+    return 0;
+  }
+  std::stringstream copy;
+  tanglebin::write_ply(copy, cloud);
+  const tanglebin::PointCloud back = tanglebin::read_ply(copy, "copy.ply");
+  if (back.points != cloud.points || back.labels != cloud.labels || back.colors != cloud.colors) std::abort();
+  return 0;
+}

@@ -1,0 +1,105 @@
+#include "tanglebin/cloud/cloud.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "clouds.hpp"
+#include "tanglebin/cloud/label_colors.hpp"
+
+namespace tanglebin {
+namespace {
+
+using testing::ElementsAre;
+
+Pixel pixel_of(std::int32_t label, float x) {
+  Pixel pixel{};
+  pixel.label = label;
+  pixel.point = label == null_label ? Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN())
+                                    : Eigen::Vector3f(x, 2.0F * x, 0.5F);
+  return pixel;
+}
+
+// An image of 4 x 3 of which a window of 2 x 2 sees something: the bin, tube 2, nothing, tube 1.
+Scan small_scan() {
+  Scan scan;
+  scan.camera.width = 4;
+  scan.camera.height = 3;
+  scan.camera.pose.translation() << 0.1, 0.2, 2.0;
+  scan.window = {.left = 1, .top = 1, .width = 2, .height = 2};
+  scan.pixels = {pixel_of(bin_label, 1.0F), pixel_of(2, 2.0F), pixel_of(null_label, 0.0F), pixel_of(1, 4.0F)};
+  return scan;
+}
+
+TEST(CloudFromScan, HoldsTheTubesInTheOrderOfTheirPixels) {
+  const PointCloud cloud = cloud_from_scan(small_scan(), CloudOf::tubes, 2);
+  const auto colors = label_colors(2);
+  EXPECT_THAT(cloud.labels, ElementsAre(2, 1));
+  EXPECT_THAT(cloud.points, ElementsAre(Eigen::Vector3f(2, 4, 0.5), Eigen::Vector3f(4, 8, 0.5)));
+  EXPECT_THAT(cloud.colors, ElementsAre(colors[2], colors[1]));
+  EXPECT_EQ(cloud.width, 2U);
+  EXPECT_EQ(cloud.height, 1U);
+  ASSERT_TRUE(cloud.viewpoint);
+  EXPECT_EQ(cloud.viewpoint->translation(), Eigen::Vector3d(0.1, 0.2, 2.0));
+}
+
+TEST(CloudFromScan, HoldsTheBinWhereAskedFor) {
+  const PointCloud cloud = cloud_from_scan(small_scan(), CloudOf::tubes_and_bin, 2);
+  EXPECT_THAT(cloud.labels, ElementsAre(0, 2, 1));
+  EXPECT_EQ(cloud.colors.front(), label_colors(2).front());
+}
+
+TEST(CloudFromScan, KnowsTheColorsOfTubesThatTheCameraDoesNotSee) {
+  const PointCloud cloud = cloud_from_scan(small_scan(), CloudOf::tubes, 10);
+  EXPECT_EQ(labels_from_colors(cloud.colors, 10, "cloud"), cloud.labels);
+}
+
+TEST(CloudFromScan, RefusesALabelBeyondTheTubes) {
+  EXPECT_THROW(cloud_from_scan(small_scan(), CloudOf::tubes, 1), std::out_of_range);
+}
+
+TEST(OrganizedCloudFromScan, CoversTheWholeImage) {
+  const PointCloud cloud = organized_cloud_from_scan(small_scan(), CloudOf::tubes, 2);
+  EXPECT_EQ(cloud.width, 4U);
+  EXPECT_EQ(cloud.height, 3U);
+  check_cloud(cloud);
+  EXPECT_THAT(cloud.labels, ElementsAre(-1, -1, -1, -1,  //
+                                        -1, -1, 2, -1,   //
+                                        -1, -1, 1, -1));
+  EXPECT_EQ(cloud.points[6], Eigen::Vector3f(2, 4, 0.5));
+  EXPECT_EQ(cloud.colors[10], label_colors(2)[1]);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (cloud.labels[i] != null_label) continue;
+    EXPECT_TRUE(cloud.points[i].array().isNaN().all()) << i;
+    EXPECT_EQ(cloud.colors[i], null_color) << i;
+  }
+  ASSERT_TRUE(cloud.viewpoint);
+  EXPECT_EQ(cloud.viewpoint->translation(), Eigen::Vector3d(0.1, 0.2, 2.0));
+}
+
+TEST(OrganizedCloudFromScan, HoldsTheBinWhereAskedFor) {
+  const PointCloud cloud = organized_cloud_from_scan(small_scan(), CloudOf::tubes_and_bin, 2);
+  EXPECT_EQ(cloud.labels[5], bin_label);
+  EXPECT_EQ(cloud.points[5], Eigen::Vector3f(1, 2, 0.5));
+}
+
+TEST(PointCloud, HasAsManyOfEverythingAndKnownLabels) {
+  check_cloud(PointCloud{});
+  check_cloud(small_cloud());
+  PointCloud few_labels = small_cloud();
+  few_labels.labels.pop_back();
+  EXPECT_THROW(check_cloud(few_labels), std::invalid_argument);
+  PointCloud few_colors = small_cloud();
+  few_colors.colors.pop_back();
+  EXPECT_THROW(check_cloud(few_colors), std::invalid_argument);
+  PointCloud negative = small_cloud();
+  negative.labels[1] = -2;
+  EXPECT_THROW(check_cloud(negative), std::invalid_argument);
+  PointCloud wide = small_cloud();
+  wide.width = 3;
+  EXPECT_THROW(check_cloud(wide), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace tanglebin
