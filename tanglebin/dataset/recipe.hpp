@@ -41,12 +41,18 @@ struct Recipe {
   std::vector<SetRecipe> sets;
 };
 
+/// Throws InputError naming the field of which no dataset can be made: what the bin, the scanner, the
+/// settling and the tubes refuse, sets that share a name or a folder, numbers out of range (docs/formats.md),
+/// a bin smaller than a tube. read_recipe() does it; after a change of the recipe it is the caller's.
+void validate(const Recipe& recipe);
+
 /// Reads a recipe (TOML, docs/formats.md). Unknown keys are errors. Throws InputError with file, line and
 /// key.
 Recipe read_recipe(std::istream& in, const std::string& name);
 Recipe read_recipe(const std::filesystem::path& file);
 
-/// Writes the resolved recipe: every value there is, presets spelled out. Reads back as the same recipe.
+/// Writes a valid recipe resolved: every value there is, presets spelled out. What read_recipe() gave reads
+/// back bit for bit; an angle set in code that is no double's degrees is written as the nearest one that is.
 void write_recipe(std::ostream& out, const Recipe& recipe);
 
 }  // namespace tanglebin

@@ -25,9 +25,10 @@ struct TubeSpec {
   std::vector<Segment> segments = std::vector<Segment>(1);
 };
 
-/// Throws InputError, with `where` before the field's name, for a spec of which no tube can be made:
-/// names the field and why (cylinders_max · cylinder_length_min > length, min > max, an angle out of [0, π],
-/// a radius or mass that is not positive, a segment that starts nowhere or closes a loop).
+/// Throws InputError for a spec of which no tube can be made: names the field (`where`.radius, and for the
+/// second of several segments `where`.segment[1].length) and why: cylinders_max · cylinder_length_min > length,
+/// min > max, an angle out of [0, π], a size or mass that is not positive, more than 1000 cylinders, a segment
+/// that starts nowhere or closes a loop, named nodes that are not 1, 2, …, segments + 1.
 void validate(const TubeSpec& spec, const std::string& where = "tube");
 
 }  // namespace tanglebin

@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cfenv>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "scene.hpp"
 #include "tanglebin/scan/intersect.hpp"
@@ -26,17 +29,28 @@ struct Seen {
 };
 
 /// The truth: the nearest of all closed-form intersections in double precision.
-std::optional<Seen> nearest(const Ray& ray, const std::vector<Tube>& tubes, const Bin& bin) {
-  std::optional<Seen> first;
-  const auto consider = [&](const std::optional<SurfaceHit>& hit, std::int32_t label) {
-    if (hit && (!first || hit->distance < first->range)) first = Seen{hit->distance, hit->normal, label};
-  };
-  for (const AlignedBox3d& box : boxes(bin)) consider(ray_box(ray, box), bin_label);
-  for (const Tube& tube : tubes) {
-    for (const Capsule& capsule : capsules(tube)) consider(ray_capsule(ray, capsule), tube.id);
+class Truth {
+public:
+  Truth(const std::vector<Tube>& tubes, const Bin& bin) : boxes_(boxes(bin)) {
+    for (const Tube& tube : tubes) {
+      for (const Capsule& capsule : capsules(tube)) capsules_.emplace_back(tube.id, capsule);
+    }
   }
-  return first;
-}
+
+  std::optional<Seen> along(const Ray& ray) const {
+    std::optional<Seen> first;
+    const auto consider = [&](const std::optional<SurfaceHit>& hit, std::int32_t label) {
+      if (hit && (!first || hit->distance < first->range)) first = Seen{hit->distance, hit->normal, label};
+    };
+    for (const AlignedBox3d& box : boxes_) consider(ray_box(ray, box), bin_label);
+    for (const auto& [label, capsule] : capsules_) consider(ray_capsule(ray, capsule), label);
+    return first;
+  }
+
+private:
+  std::array<AlignedBox3d, 5> boxes_;
+  std::vector<std::pair<std::int32_t, Capsule>> capsules_;
+};
 
 bool contains(const PixelWindow& window, int u, int v) {
   return u >= window.left && u < window.left + window.width && v >= window.top &&
@@ -54,11 +68,12 @@ struct Difference {
 Difference compare(const Scan& scan, const std::vector<Tube>& tubes, const Bin& bin, int row_stride,
                    int column_stride) {
   Difference difference;
+  const Truth all(tubes, bin);
   for (int v = 0; v < scan.camera.height; v += row_stride) {
     for (int u = 0; u < scan.camera.width; u += column_stride) {
       ++difference.pixels;
       const Ray ray = ray_through(scan.camera, u, v);
-      const auto truth = nearest(ray, tubes, bin);
+      const auto truth = all.along(ray);
       const std::int32_t label = contains(scan.window, u, v) ? scan.at(u, v).label : null_label;
       if (label != (truth ? truth->label : null_label)) {
         ++difference.wrong_labels;
@@ -100,12 +115,13 @@ TEST(Scanner, EveryPixelOfThePaperCameraIsExact) {
   const Scan result = scan(tubes, Bin{}, camera_preset("paper"));
   const PixelWindow& window = result.window;
   // Every pixel of the window, and of the rest of the image in a coarse grid.
+  const Truth all(tubes, Bin{});
   int wrong = 0;
   double depth_error = 0;
   for (int v = window.top; v < window.top + window.height; ++v) {
     for (int u = window.left; u < window.left + window.width; ++u) {
       const Ray ray = ray_through(result.camera, u, v);
-      const auto truth = nearest(ray, tubes, Bin{});
+      const auto truth = all.along(ray);
       const Pixel& pixel = result.at(u, v);
       if (pixel.label != (truth ? truth->label : null_label)) ++wrong;
       if (truth)
@@ -208,7 +224,8 @@ TEST(Scanner, PixelsAreConsistentInThemselves) {
 
 double distance_to(const Tube& tube, const Vector3d& p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Capsule& c : capsules(tube)) {
+  for (const Edge& edge : tube.edges) {
+    const Capsule c = capsule(tube, edge);
     const Vector3d axis = c.b - c.a;
     const double t = std::clamp((p - c.a).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
     least = std::min(least, (p - c.a - t * axis).norm() - c.radius);

@@ -107,7 +107,7 @@ TEST(MassProperties, OfABentJointHaveTheVolumeOfTheClosedForm) {
   }
 }
 
-// Within 0.05 % and 0.1 mm, most of it the reference's own error.
+// Within 0.1 % and 0.2 mm, most of which is left to the reference's own error.
 TEST(MassProperties, OfDrawnTubesAreThoseOfSampledPoints) {
   Rng rng(1);
   for (const TubeSpec& spec : {test::chain_spec(30), test::chain_spec(45), test::chain_spec(120),
@@ -115,9 +115,9 @@ TEST(MassProperties, OfDrawnTubesAreThoseOfSampledPoints) {
     const Tube tube = draw_tube(rng, spec, 1);
     const MassProperties found = mass_properties(tube);
     const MassProperties expected = sampled_mass_properties(tube);
-    EXPECT_NEAR(found.volume / expected.volume, 1, 0.0005);
-    EXPECT_LT((found.centre - expected.centre).norm(), 0.0001);
-    EXPECT_LT(difference(found.inertia, expected.inertia), 0.0005);
+    EXPECT_NEAR(found.volume / expected.volume, 1, 0.001);
+    EXPECT_LT((found.centre - expected.centre).norm(), 0.0002);
+    EXPECT_LT(difference(found.inertia, expected.inertia), 0.001);
   }
 }
 

@@ -1,0 +1,38 @@
+// Any bytes are either a recipe, which then survives writing and reading, or an InputError.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/case_id.hpp"
+#include "tanglebin/dataset/recipe.hpp"
+
+namespace {
+
+std::string read_and_write(const std::string& text) {
+  std::istringstream in(text);
+  const tanglebin::Recipe recipe = tanglebin::read_recipe(in, "fuzz");
+  if (tanglebin::cases(recipe).empty()) std::abort();
+  std::ostringstream out;
+  tanglebin::write_recipe(out, recipe);
+  return out.str();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::string written;
+  try {
+    written = read_and_write(std::string(data, data + size));
+  } catch (const tanglebin::InputError& error) {
+    // The program prints it on one line.
+    if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
+    return 0;
+  }
+  // An exception from here on is a crash: what the project writes is refused.
+  if (read_and_write(written) != written) std::abort();
+  return 0;
+}

@@ -1,0 +1,21 @@
+#include "tanglebin/dataset/case_id.hpp"
+
+#include <fmt/format.h>
+
+#include "tanglebin/dataset/recipe.hpp"
+
+namespace tanglebin {
+
+std::vector<CaseId> cases(const Recipe& recipe) {
+  std::vector<CaseId> result;
+  for (const SetRecipe& set : recipe.sets)
+    for (const int tubes : set.tubes)
+      for (int number = 1; number <= set.cases; ++number) result.push_back({set.name, tubes, number});
+  return result;
+}
+
+std::string folder_name(std::string_view set, int tubes) {
+  return fmt::format("{}{}", set, tubes);
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tanglebin {
+
+struct Recipe;
+
+/// One scene of a dataset.
+struct CaseId {
+  std::string set;
+  int tubes = 1;   ///< how many are in the scene
+  int number = 1;  ///< 1, 2, … of this set and number of tubes
+
+  bool operator==(const CaseId&) const = default;
+};
+
+/// Every case of a valid recipe: by set, number of tubes (both in the recipe's order) and number.
+std::vector<CaseId> cases(const Recipe& recipe);
+
+/// The folder of the cases of one set and number of tubes, as in the published data: "A10".
+std::string folder_name(std::string_view set, int tubes);
+
+}  // namespace tanglebin

@@ -1,0 +1,423 @@
+#include "tanglebin/dataset/recipe.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <initializer_list>
+#include <istream>
+#include <limits>
+#include <numbers>
+#include <ostream>
+#include <string_view>
+#include <tuple>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/toml_table.hpp"
+
+namespace tanglebin {
+namespace {
+
+// Keys and what they stand for: a line here is all that a new setting needs to be read and written.
+
+template <typename Struct, typename Value>
+struct Field {
+  const char* key;
+  Value Struct::*member;
+};
+template <typename Struct, typename Value>
+Field(const char*, Value Struct::*) -> Field<Struct, Value>;
+
+/// Degrees in the recipe, radians in the struct.
+template <typename Struct>
+struct AngleField {
+  const char* key;
+  double Struct::*member;
+};
+template <typename Struct>
+AngleField(const char*, double Struct::*) -> AngleField<Struct>;
+
+constexpr std::tuple bin_fields{
+    Field{"length", &Bin::length}, Field{"width", &Bin::width},       Field{"height", &Bin::height},
+    Field{"wall", &Bin::wall},     Field{"friction", &Bin::friction},
+};
+constexpr std::tuple camera_size_fields{
+    Field{"width", &Camera::width},
+    Field{"height", &Camera::height},
+};
+constexpr std::tuple camera_lens_fields{
+    Field{"fx", &Camera::fx},
+    Field{"fy", &Camera::fy},
+    Field{"cx", &Camera::cx},
+    Field{"cy", &Camera::cy},
+};
+constexpr std::tuple settle_fields{
+    Field{"gravity", &SettleSettings::gravity},
+    Field{"friction", &SettleSettings::friction},
+    Field{"step", &SettleSettings::step},
+    Field{"iterations", &SettleSettings::iterations},
+    Field{"iterations_max", &SettleSettings::iterations_max},
+    Field{"sor", &SettleSettings::sor},
+    Field{"erp", &SettleSettings::erp},
+    Field{"surface_layer", &SettleSettings::surface_layer},
+    Field{"correction_speed", &SettleSettings::correction_speed},
+    Field{"calm_speed", &SettleSettings::calm_speed},
+    Field{"calm_time", &SettleSettings::calm_time},
+    Field{"calm_damping", &SettleSettings::calm_damping},
+    Field{"rest_speed", &SettleSettings::rest_speed},
+    Field{"rest_time", &SettleSettings::rest_time},
+    Field{"proof_time", &SettleSettings::proof_time},
+    Field{"proof_motion", &SettleSettings::proof_motion},
+    Field{"overlap_max", &SettleSettings::overlap_max},
+    Field{"time_limit", &SettleSettings::time_limit},
+};
+constexpr std::tuple output_fields{
+    Field{"bin_points", &OutputSettings::bin_points},
+    Field{"worlds", &OutputSettings::worlds},
+    Field{"pcds", &OutputSettings::pcds},
+    Field{"depths", &OutputSettings::depths},
+    Field{"labels", &OutputSettings::labels},
+};
+constexpr std::tuple tube_fields{
+    Field{"radius", &TubeSpec::radius},
+    Field{"mass", &TubeSpec::mass},
+};
+constexpr std::tuple segment_end_fields{
+    Field{"from", &Segment::from},
+    Field{"to", &Segment::to},
+};
+constexpr std::tuple segment_fields{
+    Field{"length", &Segment::length},
+    Field{"cylinders_min", &Segment::cylinders_min},
+    Field{"cylinders_max", &Segment::cylinders_max},
+    Field{"cylinder_length_min", &Segment::cylinder_length_min},
+    AngleField{"bend_min_deg", &Segment::bend_min},
+    AngleField{"bend_max_deg", &Segment::bend_max},
+};
+
+using Keys = std::vector<std::string_view>;
+
+template <typename... Fields>
+Keys keys(const std::tuple<Fields...>& fields) {
+  return std::apply([](const auto&... field) { return Keys{field.key...}; }, fields);
+}
+
+Keys all(std::initializer_list<Keys> lists) {
+  Keys result;
+  for (const Keys& list : lists) result.insert(result.end(), list.begin(), list.end());
+  return result;
+}
+
+// Degrees
+
+double radians_from_degrees(double degrees) {
+  constexpr double radians_per_degree = std::numbers::pi / 180;
+  return degrees * radians_per_degree;
+}
+
+std::string real_text(double value) {
+  return fmt::format("{:#}", value);  // always a TOML float, so that −0 keeps its sign
+}
+
+// The shortest degrees that read_recipe turns into exactly these radians. Where the radians came from degrees
+// there are some: rounding puts them at most two doubles from the quotient.
+std::string degrees_text(double radians) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double nearest = radians / radians_from_degrees(1);
+  const double below = std::nextafter(nearest, -infinity);
+  const double above = std::nextafter(nearest, infinity);
+  std::string shortest;
+  for (const double degrees :
+       {nearest, below, above, std::nextafter(below, -infinity), std::nextafter(above, infinity)}) {
+    const std::string text = real_text(degrees);
+    if (radians_from_degrees(degrees) == radians && (shortest.empty() || text.size() < shortest.size()))
+      shortest = text;
+  }
+  return shortest.empty() ? real_text(nearest) : shortest;
+}
+
+// Reading
+
+// Calls `call`; an error of its gets the place in the recipe.
+template <typename Call>
+auto with_place(const std::string& file, std::size_t line, Call call) {
+  try {
+    return call();
+  } catch (const InputError& error) {
+    throw InputError({file, line, ""}, error.what());
+  }
+}
+
+template <typename Struct, typename Value>
+void read_field(const TomlTable& table, const Field<Struct, Value>& field, Struct& values) {
+  table.get(field.key, values.*field.member);
+}
+
+template <typename Struct>
+void read_field(const TomlTable& table, const AngleField<Struct>& field, Struct& values) {
+  if (!table.has(field.key)) return;
+  double degrees = 0;
+  table.get(field.key, degrees);
+  values.*field.member = radians_from_degrees(degrees);
+}
+
+template <typename Struct, typename... Fields>
+void read_fields(const TomlTable& table, const std::tuple<Fields...>& fields, Struct& values) {
+  std::apply([&](const auto&... field) { (read_field(table, field, values), ...); }, fields);
+}
+
+Bin read_bin(const TomlTable& table) {
+  table.allow(all({{"preset"}, keys(bin_fields)}));
+  std::string preset = "paper";
+  table.get("preset", preset);
+  Bin bin = with_place(table.file(), table.line("preset"), [&] { return bin_preset(preset); });
+  read_fields(table, bin_fields, bin);
+  return bin;
+}
+
+// How the camera sees: as the preset, with the same horizontal field of view where the size is another,
+// unless one of the three ways to say it is there.
+void read_lens(const TomlTable& table, Camera& camera, const Camera& preset) {
+  table.allow_one_of({"hfov_deg", "focal_length_px", "fx"});
+  table.allow_one_of({"hfov_deg", "focal_length_px", "fy"});
+  if (table.has("fx")) table.require({"fy"});
+  if (table.has("fy")) table.require({"fx"});
+
+  double focal_length = preset.fx * (static_cast<double>(camera.width) / preset.width);
+  table.get("focal_length_px", focal_length);
+  if (table.has("focal_length_px") && !(focal_length > 0))
+    table.fail("focal_length_px", fmt::format("{}", focal_length), "a positive number of pixels");
+  if (table.has("hfov_deg")) {
+    double degrees = 0;
+    table.get("hfov_deg", degrees);
+    if (!(degrees > 0 && degrees < 180))
+      table.fail("hfov_deg", fmt::format("{}", degrees), "an angle between 0 and 180");
+    focal_length = focal_length_from_hfov(camera.width, radians_from_degrees(degrees));
+  }
+  camera.fx = camera.fy = focal_length;
+  camera.cx = (camera.width - 1.0) / 2;
+  camera.cy = (camera.height - 1.0) / 2;
+  read_fields(table, camera_lens_fields, camera);
+}
+
+void read_pose(const TomlTable& table, Camera& camera) {
+  table.allow_one_of({"rotation_wxyz", "rotation_matrix"});
+  Eigen::Vector3d position = camera.pose.translation();
+  Eigen::Matrix3d rotation = camera.pose.linear();
+  table.get("position", position);
+  table.get("rotation_matrix", rotation);
+  if (table.has("rotation_wxyz")) {
+    Eigen::Vector4d wxyz;
+    table.get("rotation_wxyz", wxyz);
+    if (!(std::abs(wxyz.norm() - 1) <= 0.01))
+      table.fail("rotation_wxyz", fmt::format("a quaternion of norm {:.6g}", wxyz.norm()),
+                 "a unit quaternion");
+    rotation = Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized().toRotationMatrix();
+  }
+  camera.pose.translation() = position;
+  camera.pose.linear() = rotation;
+}
+
+Camera read_scanner(const TomlTable& table) {
+  table.allow(all({{"preset", "hfov_deg", "focal_length_px", "position", "rotation_wxyz", "rotation_matrix"},
+                   keys(camera_size_fields),
+                   keys(camera_lens_fields)}));
+  std::string name = "paper";
+  table.get("preset", name);
+  const Camera preset = with_place(table.file(), table.line("preset"), [&] { return camera_preset(name); });
+  Camera camera = preset;
+  read_fields(table, camera_size_fields, camera);
+  read_lens(table, camera, preset);
+  read_pose(table, camera);
+  return camera;
+}
+
+template <typename Struct, typename... Fields>
+Struct read_settings(const TomlTable& table, const std::tuple<Fields...>& fields) {
+  table.allow(keys(fields));
+  Struct settings;
+  read_fields(table, fields, settings);
+  return settings;
+}
+
+Segment read_segment(const TomlTable& table) {
+  table.require({"length", "bend_max_deg"});
+  Segment segment;
+  read_fields(table, segment_end_fields, segment);
+  read_fields(table, segment_fields, segment);
+  return segment;
+}
+
+TubeSpec read_tube(const TomlTable& table) {
+  table.allow(all({keys(tube_fields), keys(segment_fields), {"segment"}}));
+  table.require({"radius", "mass"});
+  TubeSpec spec;
+  read_fields(table, tube_fields, spec);
+  if (!table.has("segment")) {
+    spec.segments = {read_segment(table)};
+    return spec;
+  }
+  for (const std::string_view key : keys(segment_fields)) table.allow_one_of({"segment", key});
+  spec.segments.clear();
+  for (const TomlTable& segment : table.tables("segment")) {
+    segment.allow(all({keys(segment_end_fields), keys(segment_fields)}));
+    segment.require({"from", "to"});
+    spec.segments.push_back(read_segment(segment));
+  }
+  return spec;
+}
+
+SetRecipe read_set(const TomlTable& table) {
+  table.allow({"name", "tubes", "cases", "tube"});
+  table.require({"name", "tubes", "tube"});
+  SetRecipe set;
+  table.get("name", set.name);
+  table.get("tubes", set.tubes);
+  table.get("cases", set.cases);
+  set.spec = read_tube(table.table("tube"));
+  return set;
+}
+
+Recipe read_root(const TomlTable& root) {
+  root.allow({"seed", "attempts", "bin", "scanner", "settle", "output", "set"});
+  Recipe recipe;
+  root.get("seed", recipe.seed);
+  root.get("attempts", recipe.attempts);
+  recipe.bin = read_bin(root.table("bin"));
+  recipe.camera = read_scanner(root.table("scanner"));
+  recipe.settle = read_settings<SettleSettings>(root.table("settle"), settle_fields);
+  recipe.output = read_settings<OutputSettings>(root.table("output"), output_fields);
+  for (const TomlTable& set : root.tables("set")) recipe.sets.push_back(read_set(set));
+  return recipe;
+}
+
+// The recipe's text, in ASCII: all that it says is, and comments do not matter. For toml++ 3.3 must not be
+// given other characters where TOML allows none (it runs into __builtin_unreachable); it refuses '?' there.
+std::string ascii_text(std::istream& in) {
+  std::string text;
+  for (std::string line; std::getline(in, line);) text += line + '\n';
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) > 127; }, '?');
+  return text;
+}
+
+toml::table parse(const std::string& text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    // What it saw may be the end of a line.
+    std::string problem(error.description());
+    std::ranges::replace_if(
+        problem, [](char c) { return c < ' '; }, ' ');
+    throw InputError({name, error.source().begin.line, ""}, problem);
+  }
+}
+
+// The line that says what validate() calls `field`, or else of the innermost table around it. An angle's key
+// tells its unit.
+std::size_t line_of(const toml::table& root, std::string field) {
+  while (!field.empty()) {
+    for (const char* unit : {"", "_deg"})
+      if (const auto found = toml::at_path(root, field + unit)) return found.node()->source().begin.line;
+    const std::size_t last = field.find_last_of(".[");
+    field.resize(last == std::string::npos ? 0 : last);
+  }
+  return 0;
+}
+
+// Writing
+
+std::string value_text(double value) {
+  return real_text(value);
+}
+std::string value_text(int value) {
+  return fmt::format("{}", value);
+}
+std::string value_text(bool value) {
+  return value ? "true" : "false";
+}
+
+template <typename Vector>
+std::string vector_text(const Vector& values) {
+  std::vector<std::string> texts;
+  for (Eigen::Index i = 0; i < values.size(); ++i) texts.push_back(real_text(values[i]));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+template <typename Struct, typename Value>
+std::string field_text(const Field<Struct, Value>& field, const Struct& values) {
+  return fmt::format("{} = {}\n", field.key, value_text(values.*field.member));
+}
+
+template <typename Struct>
+std::string field_text(const AngleField<Struct>& field, const Struct& values) {
+  return fmt::format("{} = {}\n", field.key, degrees_text(values.*field.member));
+}
+
+template <typename Struct, typename... Fields>
+std::string fields_text(const std::tuple<Fields...>& fields, const Struct& values) {
+  return std::apply([&](const auto&... field) { return (field_text(field, values) + ...); }, fields);
+}
+
+std::string scanner_text(const Camera& camera) {
+  const Eigen::Vector3d position = camera.pose.translation();
+  const Eigen::Matrix3d rotation = camera.pose.linear();
+  return fields_text(camera_size_fields, camera) + fields_text(camera_lens_fields, camera) +
+         fmt::format("position = {}\n", vector_text(position)) +
+         fmt::format("rotation_matrix = [{}, {}, {}]\n", vector_text(rotation.row(0)),
+                     vector_text(rotation.row(1)), vector_text(rotation.row(2)));
+}
+
+std::string tube_text(const TubeSpec& spec) {
+  std::string text = "\n[set.tube]\n" + fields_text(tube_fields, spec);
+  const bool is_chain = spec.segments.size() == 1;
+  for (const Segment& segment : spec.segments) {
+    if (!is_chain) text += "\n[[set.tube.segment]]\n" + fields_text(segment_end_fields, segment);
+    text += fields_text(segment_fields, segment);
+  }
+  return text;
+}
+
+std::string set_text(const SetRecipe& set) {
+  return fmt::format("\n[[set]]\nname = \"{}\"\ntubes = [{}]\ncases = {}\n", set.name,
+                     fmt::join(set.tubes, ", "), set.cases) +
+         tube_text(set.spec);
+}
+
+}  // namespace
+
+Recipe read_recipe(std::istream& in, const std::string& name) {
+  const std::string text = ascii_text(in);
+  if (in.bad()) throw InputError({name, 0, ""}, "cannot be read");
+  const toml::table root = parse(text, name);
+  Recipe recipe = read_root({name, root, ""});
+  try {
+    validate(recipe);
+  } catch (const InputError& error) {
+    throw InputError({name, line_of(root, error.place().field), ""}, error.what());
+  }
+  return recipe;
+}
+
+Recipe read_recipe(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    throw InputError({file.string(), 0, ""}, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  return read_recipe(in, file.string());
+}
+
+void write_recipe(std::ostream& out, const Recipe& recipe) {
+  out << "# A resolved recipe: every value is here, presets are spelled out.\n"
+      << fmt::format("seed = {}\nattempts = {}\n", recipe.seed, recipe.attempts)
+      << fmt::format("\n[bin]\n{}", fields_text(bin_fields, recipe.bin))
+      << fmt::format("\n[scanner]\n{}", scanner_text(recipe.camera))
+      << fmt::format("\n[settle]\n{}", fields_text(settle_fields, recipe.settle))
+      << fmt::format("\n[output]\n{}", fields_text(output_fields, recipe.output));
+  for (const SetRecipe& set : recipe.sets) out << set_text(set);
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,137 @@
+#include "tanglebin/settle/settle.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/settle/overlap.hpp"
+#include "tanglebin/settle/world.hpp"
+
+namespace tanglebin {
+namespace {
+
+// The longest that a tube can fall freely: after it every tube has met the floor or another tube.
+double longest_fall(const std::vector<Tube>& tubes, double gravity) {
+  double top = 0;
+  for (const Tube& tube : tubes) top = std::max(top, bounds(tube).max().z());
+  return std::sqrt(2 * top / gravity);
+}
+
+double largest_motion(const std::vector<Tube>& before, const std::vector<Tube>& after) {
+  double largest = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    for (std::size_t j = 0; j < before[i].nodes.size(); ++j) {
+      largest = std::max(largest, (after[i].nodes[j].position - before[i].nodes[j].position).norm());
+    }
+  }
+  return largest;
+}
+
+// Is every centre of mass between the outer sides of the walls? One that is not does not come back.
+bool are_over_the_bin(const std::vector<Eigen::Vector3d>& centres, const Bin& bin) {
+  return std::ranges::all_of(centres, [&](const Eigen::Vector3d& centre) {
+    return std::abs(centre.x()) < bin.length / 2 + bin.wall &&
+           std::abs(centre.y()) < bin.width / 2 + bin.wall;
+  });
+}
+
+bool are_inside_the_bin(const std::vector<Eigen::Vector3d>& centres, const Bin& bin) {
+  return std::ranges::all_of(centres, [&](const Eigen::Vector3d& centre) {
+    return std::abs(centre.x()) < bin.length / 2 && std::abs(centre.y()) < bin.width / 2 && centre.z() > 0;
+  });
+}
+
+// Advances the world without damping and says why its tubes are not at rest and clear; empty where they are.
+std::string prove_rest(World& world, int iterations, const Bin& bin, const SettleSettings& settings) {
+  const std::vector<Tube> before = world.tubes();
+  for (const double end = world.time() + settings.proof_time; world.time() < end;) {
+    world.step({.iterations = iterations, .damping = 0});
+  }
+  const std::vector<Tube> after = world.tubes();
+
+  const double motion = largest_motion(before, after);
+  if (motion > settings.proof_motion) {
+    return fmt::format("no rest: a node moved {:.2f} mm in {} s", 1e3 * motion, settings.proof_time);
+  }
+  if (const double overlap = largest_tube_overlap(after); overlap > settings.overlap_max) {
+    return fmt::format("two tubes overlap by {:.2f} mm", 1e3 * overlap);
+  }
+  if (const double overlap = largest_bin_overlap(after, bin); overlap > settings.overlap_max) {
+    return fmt::format("a tube overlaps the bin by {:.2f} mm", 1e3 * overlap);
+  }
+  return {};
+}
+
+}  // namespace
+
+Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings,
+               std::uint64_t seed) {
+  World world(tubes, bin, settings, seed);
+  const double fall_time = longest_fall(tubes, settings.gravity);
+  const double damping_growth = settings.calm_damping * settings.step / settings.calm_time;
+  double damping = 0;
+  double slow_since = 0;
+  int iterations = settings.iterations;
+  std::string fault = "no rest: the heap never slowed down";
+  while (world.time() < settings.time_limit) {
+    world.step({.iterations = iterations, .damping = damping});
+    if (!are_over_the_bin(world.centres_of_mass(), bin)) {
+      fault = "a tube left the bin";
+      break;
+    }
+    const double speed = world.fastest_node();
+    const bool is_down = damping > 0 || (world.time() > fall_time && speed < settings.calm_speed);
+    if (is_down) damping = std::min(settings.calm_damping, damping + damping_growth);
+    if (speed > settings.rest_speed) slow_since = world.time();
+    if (world.time() - slow_since < settings.rest_time) continue;
+
+    fault = prove_rest(world, iterations, bin, settings);
+    if (fault.empty()) {
+      if (!are_inside_the_bin(world.centres_of_mass(), bin)) fault = "a centre of mass is outside the bin";
+      break;
+    }
+    // What creeps on without damping is held by contact forces that the solver has not yet found.
+    iterations = std::min(settings.iterations_max, iterations * 3 / 2);
+    slow_since = world.time();
+  }
+  std::vector<Tube> heap = world.tubes();
+  const double overlap = std::max(largest_tube_overlap(heap), largest_bin_overlap(heap, bin));
+  return {std::move(heap), world.time(), overlap, std::move(fault)};
+}
+
+void validate(const SettleSettings& settings) {
+  const auto require = [](bool good, const char* field, double found, const char* expected) {
+    if (good) return;
+    throw InputError({"", 0, fmt::format("settle.{}", field)}, fmt::format("{}", found), expected);
+  };
+  const auto positive = [&](double value, const char* field) {
+    require(std::isfinite(value) && value > 0, field, value, "a positive number");
+  };
+  const auto not_negative = [&](double value, const char* field) {
+    require(std::isfinite(value) && value >= 0, field, value, "zero or a positive number");
+  };
+  positive(settings.gravity, "gravity");
+  not_negative(settings.friction, "friction");
+  require(settings.step > 0 && settings.step <= 0.01, "step", settings.step, "more than 0, at most 0.01 s");
+  require(settings.iterations >= 1, "iterations", settings.iterations, "at least 1");
+  require(settings.iterations_max >= settings.iterations, "iterations_max", settings.iterations_max,
+          "at least settle.iterations");
+  require(settings.sor > 0 && settings.sor < 2, "sor", settings.sor, "more than 0, less than 2");
+  require(settings.erp >= 0 && settings.erp <= 1, "erp", settings.erp, "0 to 1");
+  not_negative(settings.surface_layer, "surface_layer");
+  not_negative(settings.correction_speed, "correction_speed");
+  positive(settings.calm_speed, "calm_speed");
+  positive(settings.calm_time, "calm_time");
+  require(settings.calm_damping >= 0 && settings.calm_damping < 1, "calm_damping", settings.calm_damping,
+          "0 to less than 1");
+  positive(settings.rest_speed, "rest_speed");
+  positive(settings.rest_time, "rest_time");
+  positive(settings.proof_time, "proof_time");
+  positive(settings.proof_motion, "proof_motion");
+  positive(settings.overlap_max, "overlap_max");
+  positive(settings.time_limit, "time_limit");
+}
+
+}  // namespace tanglebin

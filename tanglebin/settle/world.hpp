@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "tanglebin/settle/bin.hpp"
+#include "tanglebin/settle/settle.hpp"
+#include "tanglebin/tube/tube.hpp"
+
+namespace tanglebin {
+
+/// How one step is made.
+struct StepSettings {
+  int iterations;  ///< of the contact solver
+  double damping;  ///< share of its linear and angular speed that every tube loses
+};
+
+/// Rigid tubes and a bin in ODE. Each tube is a body with its true mass and inertia; its surface is a capsule
+/// for each cylinder. One world at a time in a process: the solver draws from ODE's one random generator,
+/// which the constructor seeds.
+class World {
+public:
+  World(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings, std::uint64_t seed);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+  World(World&&) = delete;
+  World& operator=(World&&) = delete;
+
+  /// Advances by settings.step.
+  void step(const StepSettings& how);
+
+  /// Seconds simulated.
+  double time() const;
+
+  /// Speed of the fastest node of all tubes, m/s.
+  double fastest_node() const;
+
+  /// The tubes' centres of mass, m.
+  std::vector<Eigen::Vector3d> centres_of_mass() const;
+
+  /// Kinetic and potential energy of all tubes, J; zero for tubes that lie still with their centres on the
+  /// floor.
+  double energy() const;
+
+  /// The tubes where they are now.
+  std::vector<Tube> tubes() const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace tanglebin
