@@ -62,6 +62,28 @@ void note_and_reject(const RTCFilterFunctionNArguments* arguments) {
   arguments->valid[0] = 0;
 }
 
+/// Each capsule has two vertices of its own: without a neighbour, Embree closes both ends with a sphere.
+void add_capsules(RTCDevice device, RTCScene scene, const std::vector<Capsule>& capsules) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+  auto* vertex = static_cast<Eigen::Vector4f*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, sizeof(Eigen::Vector4f), 2 * capsules.size()));
+  auto* first_vertex = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, sizeof(unsigned), capsules.size()));
+  if (vertex == nullptr || first_vertex == nullptr) throw std::runtime_error("Embree is out of memory");
+  for (std::size_t i = 0; i < capsules.size(); ++i) {
+    for (const Vector3d& end : {capsules[i].a, capsules[i].b}) {
+      *vertex++ = Eigen::Vector4d(end.x(), end.y(), end.z(), capsules[i].radius).cast<float>();
+    }
+    *first_vertex++ = static_cast<unsigned>(2 * i);
+  }
+  rtcSetGeometryIntersectFilterFunction(geometry, note_and_reject);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw std::runtime_error("Embree cannot build a scene");
+}
+
 }  // namespace
 
 struct CapsuleIndex::Embree {
@@ -80,29 +102,6 @@ struct CapsuleIndex::Embree {
   }
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
-
-  /// Each capsule has two vertices of its own: without a neighbour, Embree closes both ends with a sphere.
-  void add(const std::vector<Capsule>& capsules) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
-    auto* vertex = static_cast<Eigen::Vector4f*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
-                                sizeof(Eigen::Vector4f), 2 * capsules.size()));
-    auto* first_vertex = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, sizeof(unsigned), capsules.size()));
-    if (vertex == nullptr || first_vertex == nullptr) throw std::runtime_error("Embree is out of memory");
-    for (std::size_t i = 0; i < capsules.size(); ++i) {
-      for (const Vector3d& end : {capsules[i].a, capsules[i].b}) {
-        *vertex++ = Eigen::Vector4d(end.x(), end.y(), end.z(), capsules[i].radius).cast<float>();
-      }
-      *first_vertex++ = static_cast<unsigned>(2 * i);
-    }
-    rtcSetGeometryIntersectFilterFunction(geometry, note_and_reject);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-    if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw std::runtime_error("Embree cannot build a scene");
-  }
 };
 
 CapsuleIndex::CapsuleIndex(const std::vector<Capsule>& capsules, const BeamShape& beam)
@@ -125,7 +124,7 @@ CapsuleIndex::CapsuleIndex(const std::vector<Capsule>& capsules, const BeamShape
     capsule.b -= centre_;
   }
   embree_ = std::make_unique<Embree>();
-  embree_->add(thick);
+  add_capsules(embree_->device, embree_->scene, thick);
 }
 
 CapsuleIndex::~CapsuleIndex() = default;

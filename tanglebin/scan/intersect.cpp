@@ -39,32 +39,32 @@ std::optional<SurfaceHit> ray_capsule(const Ray& ray, const Capsule& capsule) {
   // capsule, however far the ray's origin is, and cancel little.
   const double shift = (centre - ray.origin).dot(d);
   const Vector3d start = ray.origin + shift * d - centre;
-  const auto inside_end = [&](double side) { return inside_sphere(start - side * half_axis, d, radius); };
+  const auto inside_end = [&](double side) {
+    return inside_sphere(start - std::copysign(1.0, side) * half_axis, d, radius);
+  };
 
   // Inside the infinite cylinder |(start + t d) x h| <= radius |h|, h the half axis. With n = d x h this is
   // n² t² + 2 t (start x h)·n + (start x h)² <= radius² h², and the discriminant is h² (radius² n² −
   // (start·n)²).
   const Vector3d n = d.cross(half_axis);
   const double n2 = n.squaredNorm();
+  const double start_n = start.dot(n);
+  const double reduced_discriminant = radius * radius * n2 - start_n * start_n;
+  if (reduced_discriminant < 0) return std::nullopt;
+
   Interval t{};
   if (n2 > 0) {
-    const double start_n = start.dot(n);
-    const double reduced = radius * radius * n2 - start_n * start_n;
-    if (reduced < 0) return std::nullopt;
     const double middle = -start.cross(half_axis).dot(n) / n2;
-    const double half_chord = std::sqrt(h2 * reduced) / n2;
+    const double half_chord = std::sqrt(h2 * reduced_discriminant) / n2;
     t = {middle - half_chord, middle + half_chord};
     // Who crosses the cylinder's surface beyond an end meets the capsule in that end's sphere, if at all.
-    const auto end_passed = [&](double at) {
-      const double height = (start + at * d).dot(half_axis);
-      return height > h2 ? 1.0 : (height < -h2 ? -1.0 : 0.0);
-    };
-    const double enter_end = end_passed(t.enter);
-    const double leave_end = end_passed(t.leave);
-    if (enter_end != 0) t.enter = inside_end(enter_end).enter;
-    if (leave_end != 0) t.leave = inside_end(leave_end).leave;
+    const auto height = [&](double at) { return (start + at * d).dot(half_axis); };
+    const double enter_height = height(t.enter);
+    const double leave_height = height(t.leave);
+    if (std::abs(enter_height) > h2) t.enter = inside_end(enter_height).enter;
+    if (std::abs(leave_height) > h2) t.leave = inside_end(leave_height).leave;
   } else {
-    // Along the axis, or the capsule is a sphere: only the end spheres can be met.
+    // Along the axis, or the capsule is a sphere: only the spheres at the ends can be met.
     const Interval first = inside_end(-1);
     const Interval second = inside_end(1);
     t = {std::min(first.enter, second.enter), std::max(first.leave, second.leave)};

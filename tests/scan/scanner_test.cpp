@@ -43,11 +43,19 @@ public:
       if (hit && (!first || hit->distance < first->range)) first = Seen{hit->distance, hit->normal, label};
     };
     for (const AlignedBox3d& box : boxes_) consider(ray_box(ray, box), bin_label);
-    for (const auto& [label, capsule] : capsules_) consider(ray_capsule(ray, capsule), label);
+    for (const auto& [label, capsule] : capsules_) {
+      if (may_meet(ray, capsule)) consider(ray_capsule(ray, capsule), label);
+    }
     return first;
   }
 
 private:
+  /// Does the ray's line meet a sphere around the capsule? Saves most of the time.
+  static bool may_meet(const Ray& ray, const Capsule& capsule) {
+    const double radius = 0.501 * (capsule.b - capsule.a).norm() + 1.001 * capsule.radius;
+    return ray.direction.cross((capsule.a + capsule.b) / 2 - ray.origin).squaredNorm() < radius * radius;
+  }
+
   std::array<AlignedBox3d, 5> boxes_;
   std::vector<std::pair<std::int32_t, Capsule>> capsules_;
 };

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
-#include <numbers>
 #include <vector>
 
 #include "tanglebin/base/random.hpp"
@@ -40,19 +39,22 @@ inline Tube chain(int id, double radius, const std::vector<Vector3d>& points) {
   return tube;
 }
 
-/// Bent tubes of half a metre strewn over the bin. They pass through one another and through the walls: the
+/// Bent tubes of half a metre strewn over the bin. They pass through one another and into the walls: the
 /// harder for a scanner.
 inline std::vector<Tube> random_pile(Rng& rng, int tubes, const Bin& bin) {
-  constexpr int cylinders = 7;
+  constexpr std::size_t cylinders = 7;
   const Eigen::AlignedBox3d space(Vector3d(-bin.length / 2, -bin.width / 2, 0.0125),
                                   Vector3d(bin.length / 2, bin.width / 2, bin.height));
   std::vector<Tube> pile;
   for (int id = 1; id <= tubes; ++id) {
     std::vector<Vector3d> points = {random_point(rng, space)};
     Vector3d direction = random_direction(rng);
-    for (int i = 0; i < cylinders; ++i) {
-      direction = (direction + 0.5 * random_direction(rng)).normalized();
-      points.push_back(points.back() + 0.5 / cylinders * direction);
+    while (points.size() <= cylinders) {
+      const Vector3d bent = (direction + 0.5 * random_direction(rng)).normalized();
+      const Vector3d next = points.back() + 0.5 / cylinders * bent;
+      const bool inside = space.contains(next);
+      direction = inside ? bent : random_direction(rng);
+      if (inside) points.push_back(next);
     }
     pile.push_back(chain(id, 0.0125, points));
   }
