@@ -71,12 +71,12 @@ struct World::Implementation {
   std::vector<Body> bodies;
   int steps = 0;
 
-  void add_bin(const Bin& bin);
+  void add_bin(const Bin& bin) const;
   void add_tube(const Tube& tube);
   void touch(dGeomID first, dGeomID second);
 };
 
-void World::Implementation::add_bin(const Bin& bin) {
+void World::Implementation::add_bin(const Bin& bin) const {
   // The floor is a plane, so that nothing can tunnel through it; it meets a union of capsules at node
   // spheres.
   const dGeomID floor = dCreatePlane(space, 0, 0, 1, 0);
