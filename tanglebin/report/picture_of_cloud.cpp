@@ -98,11 +98,12 @@ std::vector<Splat> splats_of(const std::vector<Vector3d>& positions, const Camer
 /// that has points, counted in cells: so it is never much larger than a cell, where points are few.
 int splat_radius(const std::vector<Splat>& splats, const Camera& camera) {
   constexpr int cell_size = 8;
-  const int cells_in_a_row = camera.width / cell_size + 1;
-  const int rows = camera.height / cell_size + 1;
-  std::vector<bool> occupied(static_cast<std::size_t>(cells_in_a_row) * static_cast<std::size_t>(rows));
+  const auto cells_in_a_row = static_cast<std::size_t>(camera.width / cell_size + 1);
+  const auto rows = static_cast<std::size_t>(camera.height / cell_size + 1);
+  std::vector<bool> occupied(rows * cells_in_a_row);
   for (const Splat& splat : splats) {
-    occupied[static_cast<std::size_t>(splat.v / cell_size * cells_in_a_row + splat.u / cell_size)] = true;
+    const auto row = static_cast<std::size_t>(splat.v / cell_size);
+    occupied[row * cells_in_a_row + static_cast<std::size_t>(splat.u / cell_size)] = true;
   }
   const auto area = static_cast<double>(std::ranges::count(occupied, true) * cell_size * cell_size);
   return static_cast<int>(std::ceil(std::sqrt(area / static_cast<double>(splats.size()))));

@@ -139,14 +139,15 @@ bool is_edge_of_glass(const SurfaceSample& sample, const SurfaceSample& neighbou
 
 Picture average(const SurfaceImage& image, const std::vector<Vector3f>& colors) {
   Picture picture{image.camera.width / supersampling, image.camera.height / supersampling, {}};
-  picture.pixels.reserve(colors.size() / (supersampling * supersampling));
+  constexpr int samples = supersampling * supersampling;
+  picture.pixels.reserve(colors.size() / samples);
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
       Vector3f sum = Vector3f::Zero();
       for (int v = supersampling * y; v < supersampling * (y + 1); ++v) {
         for (int u = supersampling * x; u < supersampling * (x + 1); ++u) sum += colors[image.index(u, v)];
       }
-      picture.pixels.push_back(to_color(sum / (supersampling * supersampling)));
+      picture.pixels.push_back(to_color(sum / samples));
     }
   }
   return picture;

@@ -17,7 +17,7 @@ struct View {
   int height = 900;                         ///< pixels, in [1, largest_picture]
 };
 
-inline constexpr int largest_picture = 4096;  ///< pixels a side
+inline constexpr int largest_picture = 4096;  ///< pixels a side; a square one takes 4 GB to draw
 
 /// Throws InputError naming the field that makes no view.
 void validate(const View& view);
