@@ -40,7 +40,7 @@ std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const S
       bytes_of([&](std::ostream& out) { write_configuration(out, scene.tubes); }));
   if (output.worlds) {
     add("gazebo_worlds", "world", bytes_of([&](std::ostream& out) {
-          write_world(out, scene.tubes, recipe.bin, recipe.camera, recipe.settle.friction);
+          write_world(out, scene.tubes, recipe.bin, recipe.camera, recipe.settle);
         }));
   }
   if (output.pcds) {

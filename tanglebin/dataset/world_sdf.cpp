@@ -18,8 +18,6 @@ namespace {
 
 using tinyxml2::XMLPrinter;
 
-constexpr double gravity = 9.8;              // m/s²
-constexpr double step = 0.002;               // s
 constexpr double unknown_mass_density = 1;   // kg for a metre of centre line
 constexpr double least_field_of_view = 0.1;  // rad, from SDF's camera.sdf
 
@@ -233,25 +231,24 @@ void write_tube(XMLPrinter& xml, const Tube& tube, const Surface& surface) {
 
 // What is around them.
 
-void write_physics(XMLPrinter& xml) {
+void write_physics(XMLPrinter& xml, const SettleSettings& settle) {
   Element physics(xml, "physics", "ode");
   physics.attribute("type", "ode");
-  write_number(xml, "max_step_size", step);
+  write_number(xml, "max_step_size", settle.step);
   write_number(xml, "real_time_factor", 1);
-  write_number(xml, "real_time_update_rate", std::round(1 / step));
+  write_number(xml, "real_time_update_rate", std::round(1 / settle.step));
   const Element ode(xml, "ode");
   {
     const Element solver(xml, "solver");
     write_text(xml, "type", "quick");
-    write_number(xml, "iters", 100);
-    write_number(xml, "sor", 1.3);
+    write_number(xml, "iters", settle.iterations_max);
+    write_number(xml, "sor", settle.sor);
   }
   const Element constraints(xml, "constraints");
   write_number(xml, "cfm", 0);
-  write_number(xml, "erp", 0.2);
-  write_number(xml, "contact_max_correcting_vel", 0.1);
-  // Gazebo's default lets bodies sink 1 mm into each other: more than a scan's error.
-  write_number(xml, "contact_surface_layer", 0.0001);
+  write_number(xml, "erp", settle.erp);
+  write_number(xml, "contact_max_correcting_vel", settle.correction_speed);
+  write_number(xml, "contact_surface_layer", settle.surface_layer);
 }
 
 void write_light(XMLPrinter& xml) {
@@ -273,7 +270,7 @@ int largest_id(const std::vector<Tube>& tubes) {
 }  // namespace
 
 void write_world(std::ostream& out, const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera,
-                 double tube_friction) {
+                 const SettleSettings& settle) {
   const std::vector<Color> colors = label_colors(largest_id(tubes));
   XMLPrinter xml;
   xml.PushHeader(false, true);
@@ -281,13 +278,13 @@ void write_world(std::ostream& out, const std::vector<Tube>& tubes, const Bin& b
     Element sdf(xml, "sdf");
     sdf.attribute("version", "1.7");
     const Element world(xml, "world", "tanglebin");
-    write_vector(xml, "gravity", {0, 0, -gravity});
-    write_physics(xml);
+    write_vector(xml, "gravity", {0, 0, -settle.gravity});
+    write_physics(xml, settle);
     write_light(xml);
     write_bin(xml, bin, colors.front());
     write_camera(xml, camera, bin);
     for (const Tube& tube : tubes) {
-      write_tube(xml, tube, {colors.at(static_cast<std::size_t>(tube.id)), tube_friction});
+      write_tube(xml, tube, {colors.at(static_cast<std::size_t>(tube.id)), settle.friction});
     }
   }
   out << xml.CStr();

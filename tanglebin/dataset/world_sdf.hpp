@@ -5,6 +5,7 @@
 
 #include "tanglebin/scan/camera.hpp"
 #include "tanglebin/settle/bin.hpp"
+#include "tanglebin/settle/settle.hpp"
 #include "tanglebin/tube/tube.hpp"
 
 namespace tanglebin {
@@ -12,12 +13,12 @@ namespace tanglebin {
 /// Writes an SDF 1.7 world (docs/formats.md) that Gazebo, classic 11 and new, opens: the bin as a static
 /// model, a depth camera, a light, and each tube as a model of one rigid link at its pose.
 ///
-/// The tubes' ids must be 1, 2, … and distinct. `tube_friction` is a tube's Coulomb coefficient, bin.friction
-/// the bin's; Gazebo applies the smaller of the two that touch. A tube of unknown mass (0) gets 1 kg for each
-/// metre of its centre line, as the paper's tubes have. SDF knows only cameras with square pixels and a
-/// centred principal point: of the focal lengths, the world has fx. Throws InputError for a camera whose
-/// horizontal field of view is below 0.1 rad, the least that SDF allows.
+/// Gravity, friction and solver are those of `settle`, so the heap stays as it came to rest; as there, the
+/// smaller friction of two solids that touch applies. The tubes' ids must be 1, 2, … and distinct. A tube of
+/// unknown mass (0) gets 1 kg for each metre of its centre line, as the paper's tubes have. SDF knows only
+/// cameras with square pixels and a centred principal point: of the focal lengths, the world has fx. Throws
+/// InputError for a camera whose horizontal field of view is below 0.1 rad, the least that SDF allows.
 void write_world(std::ostream& out, const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera,
-                 double tube_friction);
+                 const SettleSettings& settle);
 
 }  // namespace tanglebin

@@ -22,8 +22,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double tube_friction = 1.16;
-
 // Tubes like those of the published sets A and C.
 
 TubeSpec chain_spec() {
@@ -67,9 +65,10 @@ Tube straight_tube(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   return tube;
 }
 
-std::string world_text(const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera) {
+std::string world_text(const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera,
+                       const SettleSettings& settings = {}) {
   std::ostringstream out;
-  write_world(out, tubes, bin, camera, tube_friction);
+  write_world(out, tubes, bin, camera, settings);
   return out.str();
 }
 
@@ -233,8 +232,8 @@ TEST(WorldSdf, TubesHaveTheirFrictionAndTheColoursOfTheirLabels) {
   const std::vector<Color> colors = label_colors(3);
   for (const Tube& tube : tubes) {
     const sdf::Link& link = only_link(*root.WorldByIndex(0), "tube_" + std::to_string(tube.id));
-    EXPECT_EQ(friction(*link.CollisionByIndex(0), "mu"), tube_friction);
-    EXPECT_EQ(friction(*link.CollisionByIndex(0), "mu2"), tube_friction);
+    EXPECT_EQ(friction(*link.CollisionByIndex(0), "mu"), SettleSettings{}.friction);
+    EXPECT_EQ(friction(*link.CollisionByIndex(0), "mu2"), SettleSettings{}.friction);
     const Color expected = colors.at(static_cast<std::size_t>(tube.id));
     const ignition::math::Color color = link.VisualByIndex(0)->Material()->Diffuse();
     EXPECT_EQ(std::lround(color.R() * 255), expected[0]);
@@ -266,14 +265,22 @@ TEST(WorldSdf, TheCameraLooksWhereOursLooks) {
   EXPECT_GT(image.FarClip(), 2.1);   // the floor's corners 2.03 m
 }
 
-TEST(WorldSdf, PhysicsIsOdeAtTwoMilliseconds) {
-  const sdf::Root root = load(world_text({}));
+TEST(WorldSdf, PhysicsIsThatOfTheSettling) {
+  SettleSettings settings;
+  settings.gravity = 1.62;
+  settings.step = 0.004;
+  settings.sor = 1.1;
+  settings.surface_layer = 0.0003;
+  const sdf::Root root = load(world_text({}, bin_preset("paper"), camera_preset("paper"), settings));
   const sdf::World& world = *root.WorldByIndex(0);
-  EXPECT_EQ(world.Gravity(), ignition::math::Vector3d(0, 0, -9.8));
+  EXPECT_EQ(world.Gravity(), ignition::math::Vector3d(0, 0, -1.62));
   ASSERT_EQ(world.PhysicsCount(), 1U);
   EXPECT_EQ(world.PhysicsByIndex(0)->EngineType(), "ode");
-  EXPECT_EQ(world.PhysicsByIndex(0)->MaxStepSize(), 0.002);
-  EXPECT_EQ(world.LightCount(), 1U);
+  EXPECT_EQ(world.PhysicsByIndex(0)->MaxStepSize(), 0.004);
+  const sdf::ElementPtr ode = world.PhysicsByIndex(0)->Element()->GetElement("ode");
+  EXPECT_EQ(ode->GetElement("solver")->Get<double>("sor"), 1.1);
+  EXPECT_EQ(ode->GetElement("solver")->Get<int>("iters"), settings.iterations_max);
+  EXPECT_EQ(ode->GetElement("constraints")->Get<double>("contact_surface_layer"), 0.0003);
 }
 
 TEST(WorldSdf, ATubeOfUnknownMassWeighsAKilogramAMetre) {
