@@ -64,7 +64,7 @@ std::vector<CaseId> chosen_cases(const GenerateArguments& arguments, const Recip
   if (arguments.shard) {
     const Shard shard = parse_shard(*arguments.shard, "--shard");
     std::vector<CaseId> part;
-    for (std::size_t i = static_cast<std::size_t>(shard.index - 1); i < chosen.size();
+    for (auto i = static_cast<std::size_t>(shard.index - 1); i < chosen.size();
          i += static_cast<std::size_t>(shard.count)) {
       part.push_back(chosen[i]);
     }

@@ -1,11 +1,113 @@
-#include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
+#include <cctype>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <system_error>
+
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cloud/read_cloud.hpp"
+#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/dataset/excerpt.hpp"
+#include "tanglebin/dataset/images.hpp"
+#include "tanglebin/dataset/safe_file.hpp"
+#include "tanglebin/report/picture.hpp"
 
 namespace tanglebin::cli {
+namespace {
+
+constexpr const char* example = R"(Example:
+  tanglebin preview dataset/A10/tube_configurations/1.txt --out pile.png
+  tanglebin preview dataset/A10/plys/1.ply --azimuth-deg 30 --elevation-deg 60 --out cloud.png)";
+
+struct Options {
+  std::string input;
+  std::string out;
+  std::string bin = "paper";
+  double azimuth_deg = -60;
+  double elevation_deg = 45;
+  int width = 1200;
+  int height = 900;
+};
+
+View view_of(const Options& options) {
+  constexpr double degree = std::numbers::pi / 180;
+  return {.azimuth = options.azimuth_deg * degree,
+          .elevation = options.elevation_deg * degree,
+          .width = options.width,
+          .height = options.height};
+}
+
+/// Tells configurations and clouds apart by their first character, as it works for pipes, too.
+Picture draw(std::istream& in, const std::string& name, const Options& options) {
+  const int first = in.peek();
+  if (first == 'p' || first == '#' || first == 'V') {
+    return picture_of_cloud(read_cloud(in, name), view_of(options), name);
+  }
+  if (first == std::istream::traits_type::eof() || std::isdigit(first) == 0) {
+    const bool is_empty = first == std::istream::traits_type::eof();
+    const char character = std::istream::traits_type::to_char_type(first);
+    throw InputError({.file = name, .line = 0, .field = ""},
+                     is_empty ? "an empty file" : excerpt({&character, 1}) + " first",
+                     "a configuration, which begins with the number of tubes, or a PLY or PCD cloud");
+  }
+  return picture_of_tubes(read_configuration(in, name), bin_preset(options.bin), view_of(options), name);
+}
+
+Picture draw_file(const std::string& file, const Options& options) {
+  // Linux opens a directory for reading without complaint.
+  if (std::filesystem::is_directory(file)) {
+    throw InputError({.file = file, .line = 0, .field = ""}, "a directory", "a configuration or a cloud");
+  }
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    throw InputError({.file = file, .line = 0, .field = ""},
+                     "cannot be opened: " + std::generic_category().message(errno));
+  }
+  return draw(in, file, options);
+}
+
+void write(const std::string& out, const std::string& bytes) {
+  if (out != "-") return write_file(out, bytes);
+  std::cout << bytes << std::flush;
+  if (!std::cout) {
+    throw InputError({.file = "standard output", .line = 0, .field = ""},
+                     "cannot write: " + std::generic_category().message(errno));
+  }
+}
+
+void run(const Options& options) {
+  const Picture picture =
+      options.input == "-" ? draw(std::cin, "standard input", options) : draw_file(options.input, options);
+  write(options.out, color_png(picture.width, picture.height, picture.pixels));
+}
+
+}  // namespace
 
 void add_preview(CLI::App& app) {
-  app.add_subcommand("preview");
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("preview", "Draws a configuration of tubes or a point cloud.");
+  command
+      ->add_option("input", options->input, "configuration (.txt) or cloud (.ply, .pcd); -: standard input")
+      ->required();
+  command->add_option("--out", options->out, "picture to write (.png); -: standard output")->required();
+  command->add_option("--azimuth-deg", options->azimuth_deg, "where the viewer stands, from +x towards +y")
+      ->capture_default_str();
+  command->add_option("--elevation-deg", options->elevation_deg, "how high above the horizontal, -90 to 90")
+      ->capture_default_str();
+  command->add_option("--width", options->width, "of the picture, pixels")->capture_default_str();
+  command->add_option("--height", options->height, "of the picture, pixels")->capture_default_str();
+  command->add_option("--bin", options->bin, "around the tubes of a configuration: paper or published")
+      ->capture_default_str();
+  command->footer(example);
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace tanglebin::cli

@@ -62,9 +62,9 @@ std::ifstream open_cloud(const std::filesystem::path& file) {
 void split(std::string_view line, std::vector<std::string_view>& words) {
   words.clear();
   const auto is_space = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
-  const auto* begin = std::ranges::find_if_not(line, is_space);
+  auto begin = std::ranges::find_if_not(line, is_space);
   while (begin != line.end()) {
-    const auto* const end = std::find_if(begin, line.end(), is_space);
+    const auto end = std::find_if(begin, line.end(), is_space);
     words.emplace_back(begin, end);
     begin = std::find_if_not(end, line.end(), is_space);
   }

@@ -114,7 +114,7 @@ Entries read_entries(CloudInput& input) {
 
 void check_version(const Entries& entries) {
   const std::string& version = entries.words("VERSION", 1).front();
-  for (const auto known : {"0.7", ".7", "0.6", ".6"}) {
+  for (const std::string_view known : {"0.7", ".7", "0.6", ".6"}) {
     if (version == known) return;
   }
   throw InputError(entries.place("VERSION"), quote(version), "0.7 or 0.6");
@@ -183,7 +183,7 @@ void check_fields(const Entries& entries, const Element& points) {
       throw InputError(entries.place("FIELDS"), "field " + quote(field.name) + " given twice");
     }
   }
-  for (const auto name : {"x", "y", "z"}) {
+  for (const std::string_view name : {"x", "y", "z"}) {
     if (!names.contains(name)) throw InputError(entries.place("FIELDS"), fmt::format("no field {}", name));
   }
   if (names.contains("rgb") && names.contains("rgba")) {
@@ -360,7 +360,9 @@ std::vector<std::byte> planes_of(const PointCloud& cloud) {
   return planes;
 }
 
-// Bytes that do not compress take one byte more for each 32, so this buffer is never too small.
+// Bytes that do not compress take one byte more for each 32, so this buffer is never too small. liblzf leaves
+// its hash table uninitialized, but its result does not depend on it: whatever three bytes came before are in
+// the table, so that an entry left over never stands for an earlier place of the same three.
 std::vector<std::byte> compressed(const std::vector<std::byte>& bytes) {
   const std::size_t capacity = bytes.size() + bytes.size() / 16 + 64;
   if (capacity > std::numeric_limits<std::uint32_t>::max()) {

@@ -11,6 +11,7 @@
 #include <ostream>
 #include <stdexcept>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "tanglebin/cloud/cloud_input.hpp"
@@ -159,11 +160,11 @@ void expect_property(const CloudInput& input, const Element& vertices, std::stri
 void check_vertices(const CloudInput& input, const Header& header) {
   const auto vertices = std::ranges::find(header.elements, vertex, &Element::name);
   if (vertices == header.elements.end()) throw InputError(input.place_in_file(), "has no element vertex");
-  for (const auto name : {"x", "y", "z"}) expect_property(input, *vertices, name);
+  for (const std::string_view name : {"x", "y", "z"}) expect_property(input, *vertices, name);
   const bool has_color =
       find(*vertices, Meaning::red) || find(*vertices, Meaning::green) || find(*vertices, Meaning::blue);
   if (!has_color) return;
-  for (const auto name : {"red", "green", "blue"}) expect_property(input, *vertices, name);
+  for (const std::string_view name : {"red", "green", "blue"}) expect_property(input, *vertices, name);
 }
 
 void check_header(const CloudInput& input, const Header& header) {
@@ -251,6 +252,7 @@ void check_finite(const PointCloud& cloud) {
 // Copies a value's bytes to `to`, and returns where the next one goes.
 template <class T>
 char* put(char* to, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
   static_assert(std::endian::native == std::endian::little, "the files' byte order");
   std::memcpy(to, &value, sizeof(T));
   return to + sizeof(T);
@@ -288,7 +290,8 @@ void write_ply(std::ostream& out, const PointCloud& cloud) {
   ply.resize(header_size + cloud.points.size() * point_size);
   char* to = ply.data() + header_size;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    to = put(to, cloud.points[i]);
+    const Eigen::Vector3f& point = cloud.points[i];
+    to = put(to, std::array{point.x(), point.y(), point.z()});
     if (!cloud.colors.empty()) to = put(to, cloud.colors[i]);
     if (!cloud.labels.empty()) to = put(to, cloud.labels[i]);
   }

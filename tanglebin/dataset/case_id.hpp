@@ -15,7 +15,8 @@ struct CaseId {
   int tubes = 1;   ///< how many are in the scene
   int number = 1;  ///< 1, 2, … of this set and number of tubes
 
-  auto operator<=>(const CaseId&) const = default;
+  auto operator<=>(const CaseId&) const =
+      default;  // NOLINT(modernize-use-nullptr): a false alarm of clang-tidy 14
 };
 
 /// Every case of a valid recipe: by set, number of tubes (both in the recipe's order) and number.

@@ -1,6 +1,10 @@
 #include "tanglebin/dataset/manifest.hpp"
 
+#include <fmt/core.h>
+
+#include <charconv>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "tanglebin/base/error.hpp"
 
@@ -17,6 +21,22 @@ CaseId id_from(const Json& json) {
   return {json.at("set").get<std::string>(), json.at("tubes").get<int>(), json.at("case").get<int>()};
 }
 
+// Hexadecimal text, since many readers of JSON take a number for a double, which cannot hold all of a seed.
+std::string seed_text(std::uint64_t seed) {
+  return fmt::format("{:016x}", seed);
+}
+
+std::uint64_t seed_from(const Json& json) {
+  const auto text = json.get<std::string>();
+  std::uint64_t seed = 0;
+  constexpr int hexadecimal = 16;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed, hexadecimal);
+  if (error != std::errc{} || end != text.data() + text.size()) {
+    throw Json::other_error::create(501, "seed is not a hexadecimal number", nullptr);
+  }
+  return seed;
+}
+
 // Reads one line; whatever is wrong with it becomes an InputError that says where.
 template <typename Read>
 auto read_line(const std::string& line, const std::string& file, std::size_t number, const Read& read) {
@@ -31,14 +51,15 @@ auto read_line(const std::string& line, const std::string& file, std::size_t num
 
 std::string to_json(const CaseRecord& record) {
   Json json = id_json(record.id);
-  json["seed"] = record.seed;
+  json["seed"] = seed_text(record.seed);
   json["simulated"] = record.simulated;
   json["largest_overlap"] = record.largest_overlap;
   json["points"] = record.points;
   json["rejected"] = Json::array();
   for (const Rejection& rejection : record.rejections) {
-    json["rejected"].push_back(
-        {{"seed", rejection.seed}, {"simulated", rejection.simulated}, {"fault", rejection.fault}});
+    json["rejected"].push_back({{"seed", seed_text(rejection.seed)},
+                                {"simulated", rejection.simulated},
+                                {"fault", rejection.fault}});
   }
   json["files"] = Json::array();
   for (const FileRecord& file : record.files) {
@@ -60,15 +81,14 @@ std::string to_json(const TimesRecord& record) {
 CaseRecord case_record(const std::string& json, const std::string& file, std::size_t line) {
   return read_line(json, file, line, [](const Json& value) {
     CaseRecord record{id_from(value),
-                      value.at("seed").get<std::uint64_t>(),
+                      seed_from(value.at("seed")),
                       value.at("simulated").get<double>(),
                       value.at("largest_overlap").get<double>(),
                       value.at("points").get<std::size_t>(),
                       {},
                       {}};
     for (const Json& rejection : value.at("rejected")) {
-      record.rejections.push_back({rejection.at("seed").get<std::uint64_t>(),
-                                   rejection.at("simulated").get<double>(),
+      record.rejections.push_back({seed_from(rejection.at("seed")), rejection.at("simulated").get<double>(),
                                    rejection.at("fault").get<std::string>()});
     }
     for (const Json& entry : value.at("files")) {

@@ -12,7 +12,7 @@
 namespace tanglebin {
 namespace {
 
-// The longest that a tube can fall freely: after it every tube has met the floor or another tube.
+// The longest that a tube can fall freely: after it every tube has met the bin or another tube.
 double longest_fall(const std::vector<Tube>& tubes, double gravity) {
   double top = 0;
   for (const Tube& tube : tubes) top = std::max(top, bounds(tube).max().z());

@@ -10,7 +10,8 @@
 namespace tanglebin {
 
 /// How tubes fall and come to rest. Gravity, friction and the solver are those of the published worlds, but
-/// for a smaller step and surface layer, which keep overlaps small, and half the iterations.
+/// for a smaller step and surface layer and a correction of overlaps, which keep these small, and half the
+/// iterations.
 struct SettleSettings {
   double gravity = 9.8;           ///< m/s²
   double friction = 1.16;         ///< Coulomb, tube on tube; on the bin: the smaller of this and the bin's
@@ -44,7 +45,7 @@ struct Settled {
 /// or the time is up. A heap is valid when no node moves more than proof_motion in proof_time without
 /// damping, no overlap exceeds overlap_max and every centre of mass is between the walls (a full bin's heap
 /// may rise over the rim). Bodies are never put to sleep. The same arguments give the same heap. ODE's random
-/// generator is one for the process: one call at a time.
+/// generator is one for the process: one call at a time. Throws InputError for a tube without mass.
 Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings,
                std::uint64_t seed);
 

@@ -1,17 +1,17 @@
 #include "tanglebin/settle/spawn.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <span>
 
 namespace tanglebin {
 namespace {
 
-constexpr double clearance = 0.002;   // m, between tubes, and over the rim
-constexpr double raise_step = 0.005;  // m, the coarseness of the search for a free height
-constexpr double steepest =
-    std::numbers::pi / 4;  // rad, of a tube's long axis: an upright one falls out of a low bin
-constexpr int turns = 32;  // tries at a heading in which the outline fits the opening
+constexpr double clearance = 0.002;                // m, between tubes, and over the rim
+constexpr double raise_step = 0.005;               // m, the coarseness of the search for a free height
+constexpr double steepest = std::numbers::pi / 4;  // rad: an upright tube would fall out of a low bin
+constexpr int turns = 32;                          // tries at a heading in which the outline fits the opening
 
 // The line through the two nodes that are farthest apart.
 Eigen::Vector3d long_axis(const Tube& tube) {

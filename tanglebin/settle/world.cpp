@@ -1,10 +1,14 @@
 #include "tanglebin/settle/world.hpp"
 
+#include <fmt/core.h>
 #include <ode/ode.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/tube/mass_properties.hpp"
 
 namespace tanglebin {
@@ -13,6 +17,13 @@ namespace {
 void initialize_ode_once() {
   static const int initialized = dInitODE2(0);
   static_cast<void>(initialized);
+}
+
+// ODE ends the process where a mass is not positive.
+void require_mass(const Tube& tube) {
+  if (std::isfinite(tube.mass) && tube.mass > 0) return;
+  throw InputError({"", 0, fmt::format("mass of tube {}", tube.id)}, fmt::format("{}", tube.mass),
+                   "a positive number");
 }
 
 dMass ode_mass(const MassProperties& properties) {
@@ -60,12 +71,12 @@ struct World::Implementation {
   std::vector<Body> bodies;
   int steps = 0;
 
-  void add_bin(const Bin& bin);
+  void add_bin(const Bin& bin) const;
   void add_tube(const Tube& tube);
   void touch(dGeomID first, dGeomID second);
 };
 
-void World::Implementation::add_bin(const Bin& bin) {
+void World::Implementation::add_bin(const Bin& bin) const {
   // The floor is a plane, so that nothing can tunnel through it; it meets a union of capsules at node
   // spheres.
   const dGeomID floor = dCreatePlane(space, 0, 0, 1, 0);
@@ -136,6 +147,7 @@ void World::Implementation::touch(dGeomID first, dGeomID second) {
 World::World(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings,
              std::uint64_t seed)
     : implementation_(std::make_unique<Implementation>()) {
+  for (const Tube& tube : tubes) require_mass(tube);
   initialize_ode_once();
   dRandSetSeed(static_cast<unsigned long>(seed & 0xffffffffU));
   Implementation& self = *implementation_;

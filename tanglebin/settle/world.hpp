@@ -22,6 +22,7 @@ struct StepSettings {
 /// which the constructor seeds.
 class World {
 public:
+  /// Throws InputError for a tube whose mass is not a positive number, such as one read from the text format.
   World(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings, std::uint64_t seed);
   ~World();
   World(const World&) = delete;

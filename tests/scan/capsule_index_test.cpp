@@ -132,5 +132,12 @@ RC_GTEST_PROP(CapsuleIndex, MissesNoCapsuleFarFromTheWorldsOrigin, (std::uint64_
                            {centre + 2 * random_direction(rng), 0});
 }
 
+RC_GTEST_PROP(CapsuleIndex, MissesNoCapsuleFarFromTheEye, (std::uint64_t seed)) {
+  SCOPED_TRACE(seed);
+  Rng rng(seed);
+  const auto capsules = random_capsules(rng, 50, Vector3d::Zero(), 0.5);
+  expect_no_capsule_missed(rng, capsules, {1000 * random_direction(rng), 0});
+}
+
 }  // namespace
 }  // namespace tanglebin

@@ -99,10 +99,10 @@ TEST_F(PclPcd, NoPointsGoBothWays) {
     std::ofstream stream(file_, std::ios::binary);
     write_pcd(stream, PointCloud{});
   }
-  pcl::PointCloud<pcl::PointXYZ> theirs;
+  pcl::PCLPointCloud2 theirs;  // PCL's conversion to typed points makes a reference to the first of none
   ASSERT_EQ(pcl::io::loadPCDFile(file_, theirs), 0);
-  EXPECT_TRUE(theirs.empty());
-  ASSERT_EQ(pcl::PCDWriter().writeBinaryCompressed(file_, theirs), 0);
+  EXPECT_EQ(theirs.width * theirs.height, 0U);
+  ASSERT_EQ(pcl::PCDWriter().writeBinaryCompressed(file_, pcl::PointCloud<pcl::PointXYZ>()), 0);
   EXPECT_TRUE(read_pcd(file_).points.empty());
 }
 

@@ -1,0 +1,87 @@
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "tanglebin/base/random.hpp"
+#include "tanglebin/score/assign.hpp"
+#include "tanglebin/score/score_clouds.hpp"
+
+namespace {
+
+using namespace tanglebin;
+
+/// Every tube overlaps every label: far denser than a cloud's.
+Confusion dense_confusion(int tubes, int segments) {
+  Rng rng(5);
+  Confusion confusion;
+  for (int tube = 0; tube < tubes; ++tube) confusion.tubes.push_back({tube + 1, 0});
+  for (int segment = 0; segment < segments; ++segment) confusion.segments.push_back({segment + 1, 0});
+  for (std::size_t tube = 0; tube < confusion.tubes.size(); ++tube) {
+    for (std::size_t segment = 0; segment < confusion.segments.size(); ++segment) {
+      confusion.overlaps.push_back({tube, segment, uniform_integer(rng, 1, 10'000)});
+    }
+  }
+  return confusion;
+}
+
+void assignment(benchmark::State& state) {
+  const Confusion confusion =
+      dense_confusion(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  for (auto _ : state) benchmark::DoNotOptimize(assign(confusion));
+}
+BENCHMARK(assignment)->Args({20, 40})->Args({200, 400})->Unit(benchmark::kMillisecond);
+
+/// Points on 20 tubes, one after the other, as a camera might see them.
+PointCloud truth_cloud(std::size_t points) {
+  Rng rng(6);
+  PointCloud cloud;
+  cloud.width = points;
+  for (std::size_t i = 0; i < points; ++i) {
+    const auto coordinate = [&] { return static_cast<float>(uniform_real(rng, -0.3, 0.3)); };
+    const float x = coordinate();
+    const float y = coordinate();
+    cloud.points.emplace_back(x, y, coordinate());
+    cloud.labels.push_back(static_cast<std::int32_t>(i * 20 / points) + 1);
+  }
+  return cloud;
+}
+
+/// The cloud's points in random order, a tenth with a wrong label, a tenth left out.
+PointCloud labelled_cloud(PointCloud cloud) {
+  Rng rng(7);
+  for (std::size_t i = cloud.points.size(); i > 1; --i) {
+    const auto j = static_cast<std::size_t>(uniform_integer(rng, 0, static_cast<int>(i) - 1));
+    std::swap(cloud.points[i - 1], cloud.points[j]);
+    std::swap(cloud.labels[i - 1], cloud.labels[j]);
+  }
+  cloud.width = cloud.points.size() * 9 / 10;
+  cloud.points.resize(cloud.width);
+  cloud.labels.resize(cloud.width);
+  for (std::int32_t& label : cloud.labels) {
+    if (uniform_real(rng, 0, 1) < 0.1) label = uniform_integer(rng, 1, 30);
+  }
+  return cloud;
+}
+
+void clouds(benchmark::State& state) {
+  const PointCloud truth = truth_cloud(static_cast<std::size_t>(state.range(0)));
+  const PointCloud labelled = labelled_cloud(truth);
+  for (auto _ : state) benchmark::DoNotOptimize(score_clouds(truth, "truth", labelled, "labelled"));
+}
+BENCHMARK(clouds)->Arg(300'000)->Unit(benchmark::kMillisecond);
+
+void labels(benchmark::State& state) {
+  const PointCloud truth = truth_cloud(static_cast<std::size_t>(state.range(0)));
+  Rng rng(8);
+  std::vector<std::int32_t> predicted = truth.labels;
+  for (std::int32_t& label : predicted) {
+    if (uniform_real(rng, 0, 1) < 0.1) label = uniform_integer(rng, -1, 30);
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(score(truth.labels, predicted));
+}
+BENCHMARK(labels)->Arg(300'000)->Unit(benchmark::kMillisecond);
+
+}  // namespace

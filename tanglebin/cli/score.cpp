@@ -1,0 +1,154 @@
+#include "tanglebin/score/score.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tanglebin/cli/arguments.hpp"
+#include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cloud/read_cloud.hpp"
+#include "tanglebin/scan/scan.hpp"
+#include "tanglebin/score/score_clouds.hpp"
+
+namespace tanglebin::cli {
+namespace {
+
+struct ScoreArguments {
+  std::string truth;
+  std::string labels;
+  bool json = false;
+  bool confusion = false;
+};
+
+// A row for each tube; a column for each predicted label, then one for null.
+std::vector<std::vector<std::int64_t>> confusion_matrix(const Score& score) {
+  const std::size_t segments = score.confusion.segments.size();
+  std::vector<std::vector<std::int64_t>> rows;
+  for (const TubeScore& tube : score.tubes) {
+    rows.emplace_back(segments + 1).back() = tube.null_points;
+  }
+  for (const auto& [tube, segment, points] : score.confusion.overlaps) rows[tube][segment] = points;
+  return rows;
+}
+
+nlohmann::ordered_json confusion_json(const Score& score) {
+  nlohmann::ordered_json json;
+  for (const Region& tube : score.confusion.tubes) json["tubes"].push_back(tube.label);
+  for (const Region& segment : score.confusion.segments) json["labels"].push_back(segment.label);
+  json["labels"].push_back(null_label);
+  json["points"] = confusion_matrix(score);
+  return json;
+}
+
+nlohmann::ordered_json tube_json(const TubeScore& tube) {
+  return {{"label", tube.label},
+          {"points", tube.points},
+          {"assigned", tube.assigned ? nlohmann::ordered_json(*tube.assigned) : nlohmann::ordered_json()},
+          {"correct_points", tube.correct_points},
+          {"null_points", tube.null_points},
+          {"iou", tube.iou}};
+}
+
+nlohmann::ordered_json score_json(const Score& score) {
+  nlohmann::ordered_json json{{"micro_recall", score.micro_recall},
+                              {"points", score.points},
+                              {"correct_points", score.correct_points},
+                              {"null_points", score.null_points},
+                              {"mean_iou", score.mean_iou},
+                              {"precision", score.detection.precision},
+                              {"recall", score.detection.recall},
+                              {"f1", score.detection.f1},
+                              {"panoptic_quality", score.detection.panoptic_quality},
+                              {"adjusted_rand_index", score.adjusted_rand_index},
+                              {"correct", score.instances.correct},
+                              {"over_segmented", score.instances.over_segmented},
+                              {"under_segmented", score.instances.under_segmented},
+                              {"missed", score.instances.missed},
+                              {"noise", score.instances.noise}};
+  for (const TubeScore& tube : score.tubes) json["tubes"].push_back(tube_json(tube));
+  return json;
+}
+
+void print_tubes(const Score& score) {
+  fmt::print("\n{:>8} {:>9} {:>8} {:>9} {:>9} {:>6}\n", "tube", "points", "label", "correct", "null", "IoU");
+  for (const TubeScore& tube : score.tubes) {
+    fmt::print("{:>8} {:>9} {:>8} {:>9} {:>9} {:>6.3f}\n", tube.label, tube.points,
+               tube.assigned ? std::to_string(*tube.assigned) : "none", tube.correct_points, tube.null_points,
+               tube.iou);
+  }
+}
+
+void print_confusion(const Score& score) {
+  fmt::print("\n{:>8}", "label");
+  for (const Region& segment : score.confusion.segments) fmt::print(" {:>8}", segment.label);
+  fmt::print(" {:>8}\n", "null");
+  const auto rows = confusion_matrix(score);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    fmt::print("{:>8}", fmt::format("tube {}", score.tubes[i].label));
+    for (const std::int64_t points : rows[i]) fmt::print(" {:>8}", points);
+    fmt::print("\n");
+  }
+}
+
+void print_text(const Score& score) {
+  const auto& [precision, recall, f1, panoptic_quality] = score.detection;
+  const Instances& instances = score.instances;
+  fmt::print("micro-recall         {:.3f}  {} of {} points, {} null\n", score.micro_recall,
+             score.correct_points, score.points, score.null_points);
+  fmt::print("mean IoU             {:.3f}\n", score.mean_iou);
+  fmt::print("F1 at IoU 0.5        {:.3f}  precision {:.3f}, recall {:.3f}\n", f1, precision, recall);
+  fmt::print("panoptic quality     {:.3f}\n", panoptic_quality);
+  fmt::print("adjusted Rand index  {:.3f}\n", score.adjusted_rand_index);
+  fmt::print("{} tubes, {} labels: {} correct, {} over-segmented, {} under-segmented, {} missed, {} noise\n",
+             score.tubes.size(), score.confusion.segments.size(), instances.correct, instances.over_segmented,
+             instances.under_segmented, instances.missed, instances.noise);
+  print_tubes(score);
+}
+
+void score_labels(const ScoreArguments& arguments) {
+  const auto read = [](auto&&... from) { return read_cloud(from...); };
+  const PointCloud truth = read_input(arguments.truth, read);
+  const PointCloud labelled = read_input(arguments.labels, read);
+  const Score score = score_clouds(truth, arguments.truth, labelled, arguments.labels);
+  if (arguments.json) {
+    nlohmann::ordered_json json = score_json(score);
+    if (arguments.confusion) json["confusion"] = confusion_json(score);
+    fmt::print("{}\n", json.dump());
+    return;
+  }
+  print_text(score);
+  if (arguments.confusion) print_confusion(score);
+}
+
+}  // namespace
+
+void add_score(CLI::App& app) {
+  const auto arguments = std::make_shared<ScoreArguments>();
+  CLI::App* command = app.add_subcommand("score", "Score the labels of a cloud against the truth");
+  command
+      ->add_option("--truth", arguments->truth,
+                   "Cloud with the true labels (PLY or PCD); - reads standard input")
+      ->required();
+  command
+      ->add_option("--labels", arguments->labels,
+                   "Cloud with labels to score: points of the truth, all or some, in any order; - reads "
+                   "standard input")
+      ->required();
+  command->add_flag("--json", arguments->json, "Print the score as JSON");
+  command->add_flag("--confusion", arguments->confusion,
+                    "Also the confusion matrix: points of each tube by label");
+  command->footer(
+      "A cloud without labels is read by its colours: each is a label, black is null.\n\n"
+      "Example:\n  tanglebin score --truth dataset/A10/plys/1.ply --labels labelled.ply\n"
+      "Measures: docs/metrics.md.");
+  command->callback([arguments] { score_labels(*arguments); });
+}
+
+}  // namespace tanglebin::cli

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tanglebin/cloud/cloud.hpp"
+
+namespace tanglebin {
+
+/// label_colors() for labels up to `largest_label`. Throws InputError with `name` for a label so large that
+/// it is more likely a mistake.
+std::vector<Color> palette(std::int32_t largest_label, const std::string& name);
+
+}  // namespace tanglebin

@@ -1,0 +1,104 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+
+#include "tanglebin/report/palette.hpp"
+#include "tanglebin/report/picture.hpp"
+#include "tanglebin/scan/intersect.hpp"
+#include "tanglebin/scan/scanner.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+constexpr Color floor_color{228, 230, 233};
+constexpr Color wall_color{220, 223, 228};
+
+AlignedBox3d bounding_box(const std::vector<Tube>& tubes, const Bin& bin) {
+  AlignedBox3d box;
+  for (const Tube& tube : tubes) box.extend(bounds(tube));
+  for (const AlignedBox3d& part : boxes(bin)) box.extend(part);
+  return box;
+}
+
+std::vector<Vector3d> corners(const AlignedBox3d& box) {
+  std::vector<Vector3d> result;
+  for (int i = 0; i < 8; ++i) result.push_back(box.corner(static_cast<AlignedBox3d::CornerType>(i)));
+  return result;
+}
+
+std::vector<Color> colors_of(const std::vector<Tube>& tubes, const std::string& name) {
+  int largest_id = 0;
+  for (const Tube& tube : tubes) largest_id = std::max(largest_id, tube.id);
+  std::vector<Color> colors = palette(largest_id, name);
+  colors[bin_label] = floor_color;
+  return colors;
+}
+
+/// The tubes and the floor, without walls.
+SurfaceImage draw_tubes(const std::vector<Tube>& tubes, const std::vector<Color>& colors, Bin bin,
+                        const Camera& camera) {
+  bin.height = 1e-9;  // walls that nobody sees
+  const Scan seen = scan(tubes, bin, camera);
+  SurfaceImage image(camera);
+  auto pixel = seen.pixels.begin();
+  for (int v = seen.window.top; v < seen.window.top + seen.window.height; ++v) {
+    for (int u = seen.window.left; u < seen.window.left + seen.window.width; ++u, ++pixel) {
+      if (pixel->label == null_label) continue;
+      image.at(u, v) = {.depth = pixel->depth,
+                        .normal = pixel->normal,
+                        .color = colors[static_cast<std::size_t>(pixel->label)],
+                        .object = pixel->label};
+    }
+  }
+  return image;
+}
+
+bool is_on_viewers_side(const AlignedBox3d& wall, const Camera& camera) {
+  const Vector3d outwards(wall.center().x(), wall.center().y(), 0);
+  return outwards.dot(camera.pose.translation() - wall.center()) > 0;
+}
+
+/// Adds the walls: those on the viewer's side as of glass.
+void draw_walls(const Bin& bin, SurfaceImage& image) {
+  const Camera& camera = image.camera;
+  const Vector3d optical_axis = camera.pose.linear().col(2);
+  const std::array<AlignedBox3d, 5> parts = boxes(bin);  // the floor and four walls
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const Ray ray = ray_through(camera, u, v);
+      SurfaceSample& sample = image.at(u, v);
+      for (int wall = 1; wall <= 4; ++wall) {
+        const AlignedBox3d& box = parts[static_cast<std::size_t>(wall)];
+        const auto hit = ray_box(ray, box);
+        if (!hit) continue;
+        const auto depth = static_cast<float>(hit->distance * optical_axis.dot(ray.direction));
+        if (depth >= sample.depth) continue;
+        if (is_on_viewers_side(box, camera)) {
+          sample.glass = std::max(sample.glass, wall);
+        } else {
+          sample = {.depth = depth,
+                    .normal = hit->normal.cast<float>(),
+                    .color = wall_color,
+                    .object = bin_label,
+                    .glass = sample.glass};
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Picture picture_of_tubes(const std::vector<Tube>& tubes, const Bin& bin, const View& view,
+                         const std::string& name) {
+  validate(view);
+  const Camera camera = camera_for(view, supersampling, corners(bounding_box(tubes, bin)), name);
+  SurfaceImage image = draw_tubes(tubes, colors_of(tubes, name), bin, camera);
+  draw_walls(bin, image);
+  return shade(image);
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tanglebin/scan/camera.hpp"
+
+namespace tanglebin {
+
+/// From where a picture shows a scene, and how large it is.
+struct View {
+  double azimuth = -std::numbers::pi / 3;   ///< rad, of the viewer, about z, from +x towards +y
+  double elevation = std::numbers::pi / 4;  ///< rad, of the viewer, above the horizontal, in [−π/2, π/2]
+  int width = 1200;                         ///< pixels, in [1, largest_picture]
+  int height = 900;                         ///< pixels, in [1, largest_picture]
+};
+
+inline constexpr int largest_picture = 4096;  ///< pixels a side; a square one takes 4 GB to draw
+
+/// Throws InputError naming the field that makes no view.
+void validate(const View& view);
+
+/// Coordinates beyond this make no picture, m.
+inline constexpr double farthest_in_picture = 1e7;
+
+/// A camera in the view's direction, as near as it can be with all `points` (m, at least one) in its image;
+/// `scale` times as many pixels as the view has on each side. Throws InputError with `name` for a point
+/// beyond farthest_in_picture.
+Camera camera_for(const View& view, int scale, const std::vector<Eigen::Vector3d>& points,
+                  const std::string& name);
+
+}  // namespace tanglebin

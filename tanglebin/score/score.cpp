@@ -1,0 +1,48 @@
+#include "tanglebin/score/score.hpp"
+
+#include <cstddef>
+#include <stdexcept>
+
+#include "tanglebin/score/assign.hpp"
+
+namespace tanglebin {
+namespace {
+
+std::vector<TubeScore> tube_scores(const Confusion& confusion, const Assignment& assignment) {
+  std::vector<TubeScore> tubes;
+  tubes.reserve(confusion.tubes.size());
+  for (const auto& [label, points] : confusion.tubes) tubes.push_back({label, points, {}, 0, points, 0.0});
+  for (const Overlap& overlap : confusion.overlaps) {
+    TubeScore& tube = tubes[overlap.tube];
+    tube.null_points -= overlap.points;
+    if (assignment[overlap.tube] != overlap.segment) continue;
+    tube.assigned = confusion.segments[overlap.segment].label;
+    tube.correct_points = overlap.points;
+    tube.iou = iou(confusion, overlap);
+  }
+  return tubes;
+}
+
+}  // namespace
+
+Score score(const std::vector<std::int32_t>& truth, const std::vector<std::int32_t>& predicted) {
+  Score score{};
+  score.confusion = count_overlaps(truth, predicted);
+  if (score.confusion.tubes.empty()) throw std::invalid_argument("the truth has no point on a tube");
+  score.tubes = tube_scores(score.confusion, assign(score.confusion));
+  for (const TubeScore& tube : score.tubes) {
+    score.points += tube.points;
+    score.correct_points += tube.correct_points;
+    score.null_points += tube.null_points;
+    score.mean_iou += tube.iou;
+  }
+  score.mean_iou /= static_cast<double>(score.tubes.size());
+  // Equation (1): tp + fn of a tube are all its points.
+  score.micro_recall = static_cast<double>(score.correct_points) / static_cast<double>(score.points);
+  score.detection = detection(score.confusion);
+  score.adjusted_rand_index = adjusted_rand_index(score.confusion);
+  score.instances = count_instances(score.confusion);
+  return score;
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,162 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "../support/program.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::bytes_of;
+using test::files_below;
+using test::run_program;
+using test::TemporaryDirectory;
+using test::write_bytes;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// Two sets of few tubes and a coarse camera, so that a case is quick.
+constexpr const char* recipe = R"(
+seed = 3
+[scanner]
+width = 192
+height = 120
+[[set]]
+name = "A"
+tubes = [1, 2]
+cases = 3
+[set.tube]
+radius = 0.0125
+mass = 0.5
+length = 0.5
+bend_max_deg = 30
+[[set]]
+name = "B"
+tubes = [1]
+cases = 3
+[set.tube]
+radius = 0.0125
+mass = 0.5
+length = 0.5
+bend_max_deg = 45
+)";
+
+class Generate : public testing::Test {
+protected:
+  Generate() { write_bytes(recipe_, recipe); }
+
+  std::string out(const std::string& name = "dataset") const { return (directory_ / name).string(); }
+  std::string command(const std::string& more = {}, const std::string& name = "dataset") const {
+    return "generate " + recipe_.string() + " --out " + out(name) + " " + more;
+  }
+
+  TemporaryDirectory directory_;
+  std::filesystem::path recipe_ = directory_ / "recipe.toml";
+};
+
+TEST_F(Generate, MakesTheRecipesCasesAndSaysSo) {
+  const auto result = run_program(command());
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, HasSubstr("dataset: 9 cases made in "));
+  EXPECT_EQ(result.err, "");  // no progress where standard error is no terminal
+  EXPECT_EQ(files_below(out()).size(), 9 * 3 + 3U);
+}
+
+TEST_F(Generate, MakesOnlyTheCasesAskedForAndGoesOnLater) {
+  const auto first = run_program(command("--set A --tubes 2 --cases 2-3 --json"));
+  EXPECT_EQ(first.status, 0);
+  const auto json = nlohmann::json::parse(first.out);
+  EXPECT_EQ(json["made"], 2);
+  EXPECT_EQ(json["complete"], true);
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "dataset/A2/plys/3.ply"));
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "dataset/A2/plys/1.ply"));
+
+  const auto second = nlohmann::json::parse(run_program(command("--json")).out);
+  EXPECT_EQ(second["found"], 2);
+  EXPECT_EQ(second["made"], 7);
+}
+
+TEST_F(Generate, ShardsMakeEachCaseOnce) {
+  std::size_t made = 0;
+  for (const std::string shard : {"1", "2"}) {
+    const auto result = run_program(command("--json --shard " + shard + "/2", "part" + shard));
+    made += nlohmann::json::parse(result.out)["made"].get<std::size_t>();
+  }
+  EXPECT_EQ(made, 9U);
+  auto first = files_below(out("part1"));
+  for (const auto& [name, bytes] : files_below(out("part2"))) {
+    const bool is_of_a_case = name.find('/') != std::string::npos;
+    EXPECT_FALSE(is_of_a_case && first.contains(name)) << name;
+  }
+}
+
+TEST_F(Generate, OneJobOrTwoGiveTheSameBytes) {
+  run_program(command("--jobs 1", "one"));
+  run_program(command("--jobs 2", "two"));
+  auto one = files_below(out("one"));
+  auto two = files_below(out("two"));
+  one.erase("times.jsonl");
+  two.erase("times.jsonl");
+  EXPECT_EQ(one, two);
+}
+
+TEST_F(Generate, TheSeedCanBeGivenAndIsInTheResolvedRecipe) {
+  run_program(command("--seed 99 --cases 1"));
+  EXPECT_THAT(bytes_of(directory_ / "dataset/recipe.toml"), HasSubstr("\nseed = 99\n"));
+  const auto other = run_program(command("--cases 1"));
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("belongs to another recipe: it has \"seed = 99\", this one \"seed = 3\""));
+}
+
+TEST_F(Generate, TheResolvedRecipeMakesTheSameDataset) {
+  run_program(command("--cases 1"));
+  EXPECT_EQ(run_program("generate " + out() + "/recipe.toml --cases 1 --out " + out("again")).status, 0);
+  auto first = files_below(out());
+  auto again = files_below(out("again"));
+  first.erase("times.jsonl");
+  again.erase("times.jsonl");
+  EXPECT_EQ(first, again);
+}
+
+TEST_F(Generate, ReadsTheRecipeFromStandardInput) {
+  EXPECT_EQ(run_program("generate - --cases 1 --out " + out(), recipe).status, 0);
+  const auto result = run_program("generate - --out " + out("b"), "sead = 1");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, StartsWith("tanglebin: standard input:1: "));
+}
+
+TEST_F(Generate, BadInputIsExitStatusTwoAndOneLine) {
+  const auto expect_error = [&](const std::string& arguments, const std::string& message) {
+    const auto result = run_program(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_THAT(result.err, HasSubstr(message)) << arguments;
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+    EXPECT_EQ(result.out, "");
+  };
+  expect_error("generate " + (directory_ / "none.toml").string() + " --out " + out(), "none.toml: ");
+  expect_error(command("--set C"), "no case has this --set, --tubes and --cases");
+  expect_error(command("--cases 3-1"), "--cases: found \"3-1\", expected a number or a range such as 1-20");
+  expect_error(command("--shard 3/2"), "--shard: found \"3/2\", expected a part I/N such as 2/8");
+  expect_error("generate " + recipe_.string() + " --out /proc/dataset", "/proc/dataset");
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(Generate, WrongUsageIsExitStatus64) {
+  EXPECT_EQ(run_program("generate").status, 64);
+  EXPECT_EQ(run_program(command("--jobs 0")).status, 64);
+  EXPECT_EQ(run_program(command("--no-such-option")).status, 64);
+  EXPECT_EQ(run_program("").status, 64);
+  EXPECT_EQ(run_program("no-such-command").status, 64);
+}
+
+TEST_F(Generate, HelpHasAnExample) {
+  const auto result = run_program("generate --help");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, HasSubstr("tanglebin generate recipes/set-a.toml --out dataset"));
+}
+
+}  // namespace
+}  // namespace tanglebin

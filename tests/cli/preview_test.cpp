@@ -1,0 +1,177 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tanglebin/cloud/pcd.hpp"
+#include "tanglebin/cloud/ply.hpp"
+
+namespace tanglebin {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr const char* png_signature = "\x89PNG\r\n\x1a\n";
+
+constexpr const char* one_tube =
+    "1\n"
+    "1 2 1\n"
+    "1 -0.1 0 0.0125 0.0125\n"
+    "2 0.1 0 0.0125 0.0125\n"
+    "e_1_2 1 2 1 0.0125 0 0 0.0125 0.7071067811865476 0 0.7071067811865476 0 0.2\n";
+
+struct Outcome {
+  int exit_code;
+  std::string output;  ///< what the program prints to standard output
+};
+
+/// The program and a directory of its own.
+class Preview : public testing::Test {
+protected:
+  Preview() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    directory_ = fs::temp_directory_path() / ("tanglebin-" + std::to_string(getpid()) + test->name());
+    fs::create_directories(directory_);
+    write("tube.txt", one_tube);
+    std::ofstream ply(directory_ / "cloud.ply", std::ios::binary);
+    write_ply(ply, cloud());
+    std::ofstream pcd(directory_ / "cloud.pcd", std::ios::binary);
+    write_pcd(pcd, cloud());
+  }
+  ~Preview() override { fs::remove_all(directory_); }
+
+  static PointCloud cloud() {
+    PointCloud cloud;
+    cloud.points = {{0, 0, 0}, {0.1F, 0, 0}, {0, 0.1F, 0}};
+    cloud.labels = {0, 1, 2};
+    cloud.width = cloud.points.size();
+    return cloud;
+  }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(directory_ / name, std::ios::binary) << text;
+  }
+
+  std::string read(const std::string& name) const {
+    std::ifstream in(directory_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  void remove(const std::string& name) const { fs::remove(directory_ / name); }
+
+  bool exists(const std::string& name) const { return fs::exists(directory_ / name); }
+
+  /// Runs `tanglebin preview` with these arguments, of a shell, in the directory.
+  Outcome preview(const std::string& arguments) const {
+    const std::string command =
+        "cd '" + directory_.string() + "' && '" + TANGLEBIN_PROGRAM + "' preview " + arguments;
+    FILE* pipe = popen(command.c_str(), "r");
+    Outcome run{-1, {}};
+    std::array<char, 4096> buffer;
+    while (const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
+      run.output.append(buffer.data(), size);
+    }
+    const int status = pclose(pipe);
+    if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
+    return run;
+  }
+
+private:
+  fs::path directory_;
+};
+
+TEST_F(Preview, DrawsConfigurationsAndClouds) {
+  for (const std::string input : {"tube.txt", "cloud.ply", "cloud.pcd"}) {
+    const Outcome run = preview(input + " --width 80 --height 60 --out picture.png 2>&1");
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_EQ(run.output, "");
+    EXPECT_THAT(read("picture.png"), StartsWith(png_signature)) << input;
+    remove("picture.png");
+  }
+}
+
+TEST_F(Preview, HasTheSizeAndTheViewpointThatAreAskedFor) {
+  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --out a.png").exit_code, 0);
+  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --azimuth-deg 20 --out b.png").exit_code, 0);
+  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --elevation-deg -90 --out c.png").exit_code, 0);
+  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --bin published --out d.png").exit_code, 0);
+  // The width and the height follow the signature and the head of the first chunk (PNG
+  // specification, 11.2.2).
+  EXPECT_EQ(read("a.png").substr(16, 8), std::string("\0\0\0\x50\0\0\0\x3c", 8));
+  EXPECT_NE(read("a.png"), read("b.png"));
+  EXPECT_NE(read("a.png"), read("c.png"));
+  EXPECT_NE(read("a.png"), read("d.png"));
+}
+
+TEST_F(Preview, ReadsStandardInputAndWritesStandardOutput) {
+  for (const std::string input : {"tube.txt", "cloud.ply", "cloud.pcd"}) {
+    ASSERT_EQ(preview(input + " --width 80 --height 60 --out picture.png").exit_code, 0);
+    const Outcome run = preview("- --width 80 --height 60 --out - < " + input);
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_EQ(run.output, read("picture.png")) << input;
+  }
+}
+
+TEST_F(Preview, SaysWhatIsWrongWithItsInputAndExitsWith2) {
+  write("empty.txt", "");
+  write("story.txt", "Once upon a time");
+  write("cut.txt", "1\n1 2 1\n");
+  write("empty.ply",
+        "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+        "end_header\n");
+  const auto message = [&](const std::string& arguments) {
+    const Outcome run = preview(arguments + " --out picture.png 2>&1");
+    EXPECT_EQ(run.exit_code, 2) << arguments;
+    EXPECT_FALSE(exists("picture.png")) << arguments;
+    EXPECT_EQ(std::ranges::count(run.output, '\n'), 1) << run.output;
+    return run.output;
+  };
+  EXPECT_THAT(message("absent.txt"), StartsWith("tanglebin: absent.txt: cannot be opened: No such file"));
+  EXPECT_THAT(message("."), StartsWith("tanglebin: .: found a directory"));
+  EXPECT_THAT(message("empty.txt"),
+              StartsWith("tanglebin: empty.txt: found an empty file, expected a config"));
+  EXPECT_THAT(message("story.txt"), StartsWith("tanglebin: story.txt: found 'O' first, expected a config"));
+  EXPECT_THAT(message("cut.txt"), StartsWith("tanglebin: cut.txt:"));
+  EXPECT_THAT(message("empty.ply"), HasSubstr("empty.ply: found a cloud without points"));
+  EXPECT_THAT(message("- < story.txt"), StartsWith("tanglebin: standard input: found 'O' first"));
+  EXPECT_THAT(message("tube.txt --bin round"),
+              HasSubstr("found \"round\", expected \"paper\" or \"published\""));
+  EXPECT_THAT(message("tube.txt --width 0"), HasSubstr("width: found 0, expected 1 to 4096 pixels"));
+  EXPECT_THAT(message("tube.txt --elevation-deg 100"),
+              HasSubstr("elevation: found 100°, expected -90° to 90°"));
+}
+
+TEST_F(Preview, SaysWhereItCannotWrite) {
+  const Outcome run = preview("tube.txt --width 8 --height 8 --out absent/picture.png 2>&1");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.output, HasSubstr("absent/picture.png: cannot write: No such file or directory"));
+  const Outcome full = preview("tube.txt --width 8 --height 8 --out - 2>&1 >/dev/full");
+  EXPECT_EQ(full.exit_code, 2);
+  EXPECT_THAT(full.output, HasSubstr("standard output: cannot write"));
+}
+
+TEST_F(Preview, ExitsWith64WhereItIsNotCalledAsItsHelpSays) {
+  EXPECT_EQ(preview("2>&1").exit_code, 64);
+  EXPECT_EQ(preview("tube.txt 2>&1").exit_code, 64);
+  EXPECT_EQ(preview("tube.txt --out a.png --width wide 2>&1").exit_code, 64);
+  EXPECT_EQ(preview("tube.txt --out a.png --colour 2>&1").exit_code, 64);
+}
+
+TEST_F(Preview, HelpHasAnExample) {
+  const Outcome run = preview("--help");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.output, HasSubstr("tanglebin preview dataset/"));
+}
+
+}  // namespace
+}  // namespace tanglebin

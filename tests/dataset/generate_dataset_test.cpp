@@ -1,0 +1,205 @@
+#include "tanglebin/dataset/generate_dataset.hpp"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "../support/temporary_directory.hpp"
+#include "small_recipe.hpp"
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/cloud/ply.hpp"
+#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/dataset/manifest.hpp"
+#include "tanglebin/dataset/sha256.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::bytes_of;
+using test::files_below;
+using test::small_recipe;
+using test::TemporaryDirectory;
+using test::write_bytes;
+using testing::HasSubstr;
+
+constexpr auto no_progress = [](std::size_t) {};
+
+GenerateSummary generate(const Recipe& recipe, const std::filesystem::path& directory, int jobs = 1) {
+  return generate_dataset(recipe, cases(recipe), directory, jobs, no_progress);
+}
+
+// Everything but how long it took.
+std::map<std::string, std::string> dataset_in(const std::filesystem::path& directory) {
+  auto files = files_below(directory);
+  files.erase("times.jsonl");
+  return files;
+}
+
+std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(GenerateDataset, WritesThePublishedLayoutAndAManifestOfIt) {
+  const TemporaryDirectory directory;
+  Recipe recipe = small_recipe();
+  recipe.output = {.bin_points = true, .worlds = true, .pcds = true, .depths = true, .labels = true};
+  const GenerateSummary summary = generate(recipe, directory.path());
+  EXPECT_TRUE(summary.complete());
+  EXPECT_EQ(summary.made, 6U);
+
+  auto files = files_below(directory.path());
+  std::istringstream manifest(files.at("manifest.jsonl"));
+  std::string line;
+  std::size_t listed = 0;
+  for (const CaseId& id : cases(recipe)) {
+    ASSERT_TRUE(std::getline(manifest, line));
+    const CaseRecord record = case_record(line, "manifest.jsonl", 1);
+    EXPECT_EQ(record.id, id);  // in the recipe's order
+    EXPECT_EQ(record.files.size(), 7U);
+    for (const FileRecord& file : record.files) {
+      EXPECT_EQ(files.at(file.path).size(), file.bytes);
+      EXPECT_EQ(sha256(files.at(file.path)), file.sha256);
+      ++listed;
+    }
+    const PointCloud cloud = read_ply(directory / record.files[0].path);
+    EXPECT_EQ(cloud.points.size(), record.points);
+    EXPECT_EQ(read_configuration(directory / record.files[1].path).size(),
+              static_cast<std::size_t>(id.tubes));
+  }
+  EXPECT_EQ(files.size(), listed + 3);  // the manifest, the times and the recipe
+  std::istringstream written(files.at("recipe.toml"));
+  EXPECT_EQ(cases(read_recipe(written, "recipe.toml")), cases(recipe));
+}
+
+TEST(GenerateDataset, WithoutTheBinTheCloudHasTheTubesPointsOnly) {
+  const TemporaryDirectory directory;
+  Recipe recipe = small_recipe();
+  recipe.output.bin_points = false;
+  generate(recipe, directory.path());
+  const PointCloud cloud = read_ply(directory / "A3/plys/1.ply");
+  EXPECT_FALSE(cloud.labels.empty());
+  EXPECT_THAT(cloud.labels, testing::Each(testing::Gt(0)));
+}
+
+TEST(GenerateDataset, TheSameRecipeGivesTheSameBytesWithAnyNumberOfJobs) {
+  const TemporaryDirectory one;
+  const TemporaryDirectory two;
+  const TemporaryDirectory three;
+  generate(small_recipe(), one.path(), 1);
+  generate(small_recipe(), two.path(), 1);
+  generate(small_recipe(), three.path(), 2);
+  const auto expected = dataset_in(one.path());
+  EXPECT_EQ(dataset_in(two.path()), expected);
+  EXPECT_EQ(dataset_in(three.path()), expected);
+}
+
+TEST(GenerateDataset, GoesOnWhereARunWasStopped) {
+  const TemporaryDirectory whole;
+  const TemporaryDirectory parts;
+  const Recipe recipe = small_recipe();
+  generate(recipe, whole.path());
+
+  std::vector<CaseId> some = cases(recipe);
+  some = {some[4], some[1]};
+  EXPECT_EQ(generate_dataset(recipe, some, parts.path(), 2, no_progress).made, 2U);
+  const GenerateSummary rest = generate(recipe, parts.path());
+  EXPECT_EQ(rest.found, 2U);
+  EXPECT_EQ(rest.made, 4U);
+  EXPECT_EQ(dataset_in(parts.path()), dataset_in(whole.path()));
+  EXPECT_EQ(generate(recipe, parts.path()).made, 0U);
+}
+
+TEST(GenerateDataset, TakesUpTheJournalOfARunThatWasCutOff) {
+  const TemporaryDirectory whole;
+  const TemporaryDirectory cut;
+  const Recipe recipe = small_recipe();
+  generate(recipe, whole.path());
+  generate(recipe, cut.path());
+
+  // As after a power cut: two cases are in the journal, the line of a third is torn, nothing is in the
+  // manifest.
+  std::istringstream manifest(bytes_of(cut / "manifest.jsonl"));
+  std::istringstream times(bytes_of(cut / "times.jsonl"));
+  std::string journal;
+  std::string record;
+  std::string time;
+  for (int line = 0; line < 3 && std::getline(manifest, record) && std::getline(times, time); ++line) {
+    journal += record + '\t' + time + '\n';
+  }
+  journal.resize(journal.size() - 9);
+  write_bytes(cut / "journal.jsonl", journal);
+  std::filesystem::remove(cut / "manifest.jsonl");
+  std::filesystem::remove(cut / "times.jsonl");
+
+  const GenerateSummary summary = generate(recipe, cut.path());
+  EXPECT_EQ(summary.found, 2U);
+  EXPECT_EQ(summary.made, 4U);
+  EXPECT_EQ(dataset_in(cut.path()), dataset_in(whole.path()));
+}
+
+TEST(GenerateDataset, AnotherRecipeIsNotLetIn) {
+  const TemporaryDirectory directory;
+  Recipe recipe = small_recipe();
+  generate_dataset(recipe, {{"A", 1, 1}}, directory.path(), 1, no_progress);
+  recipe.seed = 8;
+  EXPECT_EQ(error_of([&] { generate(recipe, directory.path()); }),
+            (directory / "recipe.toml").string() +
+                ":2: the directory belongs to another recipe: it has \"seed = 7\", this one \"seed = 8\"");
+}
+
+TEST(GenerateDataset, OneRunAtATime) {
+  const TemporaryDirectory directory;
+  const int other = open(directory.path().c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  EXPECT_EQ(error_of([&] { generate(small_recipe(), directory.path()); }),
+            directory.path().string() + ": another run is writing here");
+  close(other);
+  EXPECT_TRUE(generate(small_recipe(), directory.path()).complete());
+}
+
+TEST(GenerateDataset, ADirectoryThatCannotBeMadeIsAnError) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "file", "");
+  EXPECT_THAT(error_of([&] { generate(small_recipe(), directory / "file" / "dataset"); }),
+              HasSubstr("file: found a file, expected a directory"));
+}
+
+TEST(GenerateDataset, AFullDiskLosesNoFinishedCaseAndTheRunGoesOnLater) {
+  const TemporaryDirectory whole;
+  const TemporaryDirectory full;
+  const Recipe recipe = small_recipe();
+  generate(recipe, whole.path());
+  generate_dataset(recipe, {{"A", 1, 1}}, full.path(), 1, no_progress);
+
+  // A limit on the size of files stands for the disk's end: no cloud fits under it any more, but small files
+  // do.
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{.rlim_cur = 16000, .rlim_max = before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string error = error_of([&] { generate(recipe, full.path()); });
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_THAT(error, HasSubstr("A1/plys/2.ply: cannot write: File too large"));
+  EXPECT_THAT(files_below(full.path() / "A1/plys"), testing::SizeIs(1));
+
+  const GenerateSummary summary = generate(recipe, full.path());
+  EXPECT_EQ(summary.found, 1U);
+  EXPECT_EQ(dataset_in(full.path()), dataset_in(whole.path()));
+}
+
+}  // namespace
+}  // namespace tanglebin

@@ -1,0 +1,56 @@
+#include "tanglebin/dataset/manifest.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tanglebin/base/error.hpp"
+
+namespace tanglebin {
+namespace {
+
+CaseRecord example_record() {
+  return {{"A", 10, 3},
+          0xfedcba9876543210U,  // more than a double holds
+          1.25,
+          0.000125,
+          4321,
+          {{17, 0.5, "a tube left the \"bin\"\t"}},
+          {{"A10/plys/3.ply", 99, "abc"}, {"A10/tube_configurations/3.txt", 7, "def"}}};
+}
+
+TEST(Manifest, ACaseIsALineOfJson) {
+  EXPECT_EQ(to_json(example_record()),
+            R"({"set":"A","tubes":10,"case":3,"seed":"fedcba9876543210","simulated":1.25,)"
+            R"("largest_overlap":0.000125,"points":4321,)"
+            R"("rejected":[{"seed":"0000000000000011","simulated":0.5,"fault":"a tube left the \"bin\"\t"}],)"
+            R"("files":[{"path":"A10/plys/3.ply","bytes":99,"sha256":"abc"},)"
+            R"({"path":"A10/tube_configurations/3.txt","bytes":7,"sha256":"def"}]})");
+}
+
+TEST(Manifest, ACaseReadsBackAsItWas) {
+  const std::string line = to_json(example_record());
+  EXPECT_EQ(to_json(case_record(line, "manifest.jsonl", 1)), line);
+}
+
+TEST(Manifest, TimesReadBackAsTheyWere) {
+  const TimesRecord times{{"A", 10, 3}, {0.001, 0.25, 0.0125, 0.003}, 64.5};
+  const std::string line = to_json(times);
+  EXPECT_EQ(line,
+            R"({"set":"A","tubes":10,"case":3,"generate":0.001,"settle":0.25,"scan":0.0125,"write":0.003,)"
+            R"("peak_memory":64.5})");
+  EXPECT_EQ(to_json(times_record(line, "times.jsonl", 1)), line);
+}
+
+TEST(Manifest, ADamagedLineIsAnErrorThatSaysWhere) {
+  for (const std::string line : {"", "{", "[]", R"({"set":"A"})", R"({"set":"A","tubes":"ten","case":1})",
+                                 R"({"set":"A","tubes":1,"case":1,"seed":"xyz"})"}) {
+    try {
+      case_record(line, "manifest.jsonl", 12);
+      ADD_FAILURE() << line;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).substr(0, 18), "manifest.jsonl:12:") << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tanglebin

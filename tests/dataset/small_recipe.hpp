@@ -1,0 +1,23 @@
+#pragma once
+
+#include "tanglebin/dataset/recipe.hpp"
+#include "tanglebin/scan/camera.hpp"
+
+namespace tanglebin::test {
+
+/// Six cases that are quick to make: set A's tubes, one and three a case, and a coarse camera.
+inline Recipe small_recipe() {
+  Recipe recipe;
+  recipe.seed = 7;
+  recipe.attempts = 20;
+  recipe.camera = downward_camera(240, 150, focal_length_from_hfov(240, 1.22), {0, 0, 2});
+  SetRecipe set;
+  set.name = "A";
+  set.tubes = {1, 3};
+  set.cases = 3;
+  set.spec.segments[0].bend_max = 0.5;
+  recipe.sets.push_back(set);
+  return recipe;
+}
+
+}  // namespace tanglebin::test
