@@ -1,0 +1,46 @@
+// Twenty cases of twenty tubes of the paper's sets A and B, judged from their text files alone by a checker
+// that shares no code with the generator.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "../support/temporary_directory.hpp"
+#include "checker.hpp"
+#include "tanglebin/dataset/generate_dataset.hpp"
+#include "tanglebin/dataset/recipe.hpp"
+#include "tanglebin/scan/camera.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::TemporaryDirectory;
+
+void expect_twenty_valid_cases(const std::string& recipe_file, const std::string& set, double bend_max_deg) {
+  const TemporaryDirectory directory;
+  Recipe recipe = read_recipe(std::filesystem::path(TANGLEBIN_SOURCE) / "recipes" / recipe_file);
+  recipe.camera.width = 2;  // the clouds are another test's business
+  recipe.camera.height = 2;
+  std::vector<CaseId> twenty;
+  for (int number = 1; number <= 20; ++number) twenty.push_back({set, 20, number});
+  ASSERT_TRUE(generate_dataset(recipe, twenty, directory.path(), 2, [](std::size_t) {}).complete());
+
+  const checker::CheckerBin bin{.length = 0.55, .width = 0.37};
+  const checker::CheckerTube tube{.bend_min_deg = 0, .bend_max_deg = bend_max_deg};
+  for (const CaseId& id : twenty) {
+    const auto file = directory / (set + "20/tube_configurations/" + std::to_string(id.number) + ".txt");
+    for (const std::string& fault : checker::faults_of(file.string(), bin, tube, 20))
+      ADD_FAILURE() << file << ": " << fault;
+  }
+}
+
+TEST(PaperSets, TwentyCasesOfA20AreValid) {
+  expect_twenty_valid_cases("set-a.toml", "A", 30);
+}
+
+TEST(PaperSets, TwentyCasesOfB20AreValid) {
+  expect_twenty_valid_cases("set-b.toml", "B", 45);
+}
+
+}  // namespace
+}  // namespace tanglebin
