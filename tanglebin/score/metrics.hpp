@@ -21,7 +21,7 @@ Detection detection(const Confusion& confusion);
 /// and Arabie 1985, Equation 5). A point that no segment claims belongs together with no other.
 double adjusted_rand_index(const Confusion& confusion);
 
-/// What became of the tubes and segments (Hoover et al. 1996, Section 4), "most" being more than half. A tube
+/// What became of the tubes and segments (Hoover et al. 1996), "most" being more than half. A tube
 /// or segment counts in one instance at most: the best fitting.
 struct Instances {
   std::size_t correct = 0;          ///< a tube and a segment that have most of each other

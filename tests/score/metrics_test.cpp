@@ -67,7 +67,7 @@ TEST(AdjustedRandIndex, OfThoseWhoAgreeOnATrivialMatterIsOne) {
   EXPECT_EQ(rand_index_of({{1, 2, 3}, {3, 1, 2}}), 1.0);
 }
 
-// Pair by pair, by the formula for a 2 x 2 table of pairs (Steinley 2004, Equation 9).
+// Pair by pair: it is Cohen's kappa of the 2 x 2 table of pairs (Warrens 2008).
 double rand_index_by_pairs(const Labels& labels) {
   double both = 0.0;
   double truth_only = 0.0;
