@@ -97,7 +97,8 @@ TEST_F(ScanCommand, BadInputIsExitStatusTwoAndLeavesNothing) {
   EXPECT_THAT(result.err, HasSubstr("none.txt: "));
   result = run_program("scan -" + out, "1\n1 2 1\n1 0 0 0 -3\n");
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("tanglebin: standard input:3: radius: found '-3', expected a positive number"));
+  EXPECT_THAT(result.err,
+              HasSubstr("tanglebin: standard input:3: radius: found '-3', expected a positive number"));
   result = run_program("scan " + configuration_.string() + out + " --bin round");
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("round"));

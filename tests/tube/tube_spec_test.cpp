@@ -60,7 +60,8 @@ TEST(TubeSpec, AcceptsTheExtremesThatStillMakeATube) {
 
 TEST(TubeSpec, ForgivesTheRoundingOfThreeTenths) {
   EXPECT_EQ(complaint_after([](TubeSpec& s) {
-              s.segments[0] = {.length = 0.3, .cylinders_min = 3, .cylinders_max = 3, .cylinder_length_min = 0.1};
+              s.segments[0] = {
+                  .length = 0.3, .cylinders_min = 3, .cylinders_max = 3, .cylinder_length_min = 0.1};
             }),
             "none");
 }
