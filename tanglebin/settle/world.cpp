@@ -54,6 +54,23 @@ constexpr unsigned long node_bit = 2;
 constexpr unsigned long wall_bit = 4;
 constexpr unsigned long floor_bit = 8;
 
+void add_bin(dSpaceID space, const Bin& bin) {
+  // The floor is a plane, so that nothing can tunnel through it; it meets a union of capsules at node
+  // spheres.
+  const dGeomID floor = dCreatePlane(space, 0, 0, 1, 0);
+  dGeomSetCategoryBits(floor, floor_bit);
+  dGeomSetCollideBits(floor, node_bit);
+  const auto parts = boxes(bin);
+  for (std::size_t wall = 1; wall < parts.size(); ++wall) {
+    const Eigen::Vector3d size = parts[wall].sizes();
+    const Eigen::Vector3d centre = parts[wall].center();
+    const dGeomID box = dCreateBox(space, size.x(), size.y(), size.z());
+    dGeomSetPosition(box, centre.x(), centre.y(), centre.z());
+    dGeomSetCategoryBits(box, wall_bit);
+    dGeomSetCollideBits(box, tube_bit);
+  }
+}
+
 struct Body {
   dBodyID id;
   MassProperties properties;
@@ -71,27 +88,9 @@ struct World::Implementation {
   std::vector<Body> bodies;
   int steps = 0;
 
-  void add_bin(const Bin& bin) const;
   void add_tube(const Tube& tube);
   void touch(dGeomID first, dGeomID second);
 };
-
-void World::Implementation::add_bin(const Bin& bin) const {
-  // The floor is a plane, so that nothing can tunnel through it; it meets a union of capsules at node
-  // spheres.
-  const dGeomID floor = dCreatePlane(space, 0, 0, 1, 0);
-  dGeomSetCategoryBits(floor, floor_bit);
-  dGeomSetCollideBits(floor, node_bit);
-  const auto parts = boxes(bin);
-  for (std::size_t wall = 1; wall < parts.size(); ++wall) {
-    const Eigen::Vector3d size = parts[wall].sizes();
-    const Eigen::Vector3d centre = parts[wall].center();
-    const dGeomID box = dCreateBox(space, size.x(), size.y(), size.z());
-    dGeomSetPosition(box, centre.x(), centre.y(), centre.z());
-    dGeomSetCategoryBits(box, wall_bit);
-    dGeomSetCollideBits(box, tube_bit);
-  }
-}
 
 void World::Implementation::add_tube(const Tube& tube) {
   const MassProperties properties = mass_properties(tube);
@@ -162,7 +161,7 @@ World::World(const std::vector<Tube>& tubes, const Bin& bin, const SettleSetting
   dWorldSetQuickStepW(self.world, settings.sor);
   dWorldSetContactSurfaceLayer(self.world, settings.surface_layer);
   dWorldSetContactMaxCorrectingVel(self.world, settings.correction_speed);
-  self.add_bin(bin);
+  add_bin(self.space, bin);
   for (const Tube& tube : tubes) self.add_tube(tube);
 }
 
