@@ -28,7 +28,7 @@ PointCloud finite_points(const PointCloud& cloud) {
 std::vector<Vector3d> positions_of(const PointCloud& cloud) {
   std::vector<Vector3d> positions;
   positions.reserve(cloud.points.size());
-  for (const Vector3f& point : cloud.points) positions.push_back(point.cast<double>());
+  for (const Vector3f& point : cloud.points) positions.emplace_back(point.cast<double>());
   return positions;
 }
 
@@ -98,12 +98,12 @@ std::vector<Splat> splats_of(const std::vector<Vector3d>& positions, const Camer
 /// that has points, counted in cells: so it is never much larger than a cell, where points are few.
 int splat_radius(const std::vector<Splat>& splats, const Camera& camera) {
   constexpr int cell_size = 8;
-  const auto cells_in_a_row = static_cast<std::size_t>(camera.width / cell_size + 1);
-  const auto rows = static_cast<std::size_t>(camera.height / cell_size + 1);
+  const auto cell_at = [](int pixel) { return static_cast<std::size_t>(pixel) / cell_size; };
+  const std::size_t cells_in_a_row = cell_at(camera.width) + 1;
+  const std::size_t rows = cell_at(camera.height) + 1;
   std::vector<bool> occupied(rows * cells_in_a_row);
   for (const Splat& splat : splats) {
-    const auto row = static_cast<std::size_t>(splat.v / cell_size);
-    occupied[row * cells_in_a_row + static_cast<std::size_t>(splat.u / cell_size)] = true;
+    occupied[cell_at(splat.v) * cells_in_a_row + cell_at(splat.u)] = true;
   }
   const auto area = static_cast<double>(std::ranges::count(occupied, true) * cell_size * cell_size);
   return static_cast<int>(std::ceil(std::sqrt(area / static_cast<double>(splats.size()))));

@@ -24,8 +24,10 @@ AlignedBox3d bounding_box(const std::vector<Tube>& tubes, const Bin& bin) {
 }
 
 std::vector<Vector3d> corners(const AlignedBox3d& box) {
+  constexpr int count = 8;
   std::vector<Vector3d> result;
-  for (int i = 0; i < 8; ++i) result.push_back(box.corner(static_cast<AlignedBox3d::CornerType>(i)));
+  result.reserve(count);
+  for (int i = 0; i < count; ++i) result.push_back(box.corner(static_cast<AlignedBox3d::CornerType>(i)));
   return result;
 }
 

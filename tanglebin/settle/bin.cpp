@@ -1,5 +1,6 @@
 #include "tanglebin/settle/bin.hpp"
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -31,11 +32,11 @@ std::array<Eigen::AlignedBox3d, 5> boxes(const Bin& bin) {
 }
 
 void validate(const Bin& bin) {
-  const std::pair<const char*, double> fields[] = {{"bin.length", bin.length},
-                                                   {"bin.width", bin.width},
-                                                   {"bin.height", bin.height},
-                                                   {"bin.wall", bin.wall},
-                                                   {"bin.friction", bin.friction}};
+  const std::array<std::pair<const char*, double>, 5> fields{{{"bin.length", bin.length},
+                                                              {"bin.width", bin.width},
+                                                              {"bin.height", bin.height},
+                                                              {"bin.wall", bin.wall},
+                                                              {"bin.friction", bin.friction}}};
   for (const auto& [name, value] : fields) {
     if (!std::isfinite(value) || value <= 0) {
       throw InputError({.file = "", .line = 0, .field = name}, std::to_string(value),

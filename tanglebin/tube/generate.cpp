@@ -130,7 +130,7 @@ std::vector<Eigen::Vector3d> draw_endpoints(Rng& rng, const std::vector<double>&
       const double theta = uniform_real(rng, bend_min, bend_max);
       unit_direction = (rotation_from_z(unit_direction) * direction(theta, phi)).normalized();  // Line 11
     }
-    endpoints.push_back(endpoints.back() + lengths[i] * unit_direction);  // Line 12
+    endpoints.emplace_back(endpoints.back() + lengths[i] * unit_direction);  // Line 12
   }
   return endpoints;
 }
