@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tanglebin/cloud/cloud.hpp"
+#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/settle/bin.hpp"
+#include "tanglebin/tube/tube.hpp"
+
+namespace tanglebin {
+
+/// What is known of a scene before its cloud is looked at.
+struct KnownScene {
+  Bin bin;
+  Camera camera;           ///< that took the cloud
+  double radius = 0.0125;  ///< m, of every tube
+  double length = 0.5;     ///< m, of every tube, along its centre line
+};
+
+/// What a step of a method left, and how long it took.
+struct Step {
+  std::string name;   ///< "filter", "segment", …
+  double seconds;     ///< wall clock
+  std::size_t count;  ///< how many things it left
+  std::string of;     ///< what these are: "points", "clusters", …
+};
+
+/// Tubes found in a cloud.
+struct Model {
+  std::vector<Tube> tubes;            ///< ids 1, 2, …, of mass 0 (not known)
+  std::vector<std::int32_t> labels;   ///< a tube's id, bin_label or null_label for each point of the cloud
+  std::vector<std::size_t> filtered;  ///< the points that the method's filter left, ascending; Section 5
+                                      ///< scores their labels
+  std::vector<Step> steps;            ///< in their order
+};
+
+/// The ways to model tubes.
+enum class Method {
+  paper,  ///< the paper's, Section 4
+};
+
+/// Every method, in the order in which tables show them.
+std::vector<Method> methods();
+
+/// "paper". The inverse throws InputError for another name.
+std::string name_of(Method method);
+Method method_named(const std::string& name);
+
+/// Models the tubes of a cloud (m; a subset of what the known camera saw, in any order; labels and colours
+/// are not looked at) from a random share `ratio` (0 < ratio ≤ 1, drawn from `seed`) of its points. Every
+/// point gets a label, those left out of the modelling too. The result follows from the arguments alone.
+/// Throws InputError with `name` for a cloud that cannot be one of the known scene: in millimetres, say.
+Model model_tubes(const PointCloud& cloud, const KnownScene& known, Method method, double ratio,
+                  std::uint64_t seed, const std::string& name);
+
+}  // namespace tanglebin
