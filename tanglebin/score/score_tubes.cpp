@@ -25,8 +25,8 @@ std::vector<Sample> samples(const Capsule& axis) {
   // A little less, so that rounding does not add a part to a length of whole millimetres.
   const double parts = std::min(std::ceil(length / 0.001 - 1e-6), 1000.0);
   std::vector<Sample> samples;
-  for (double part = 0.5; part < parts; part += 1) {
-    samples.push_back({axis.a + part / parts * (axis.b - axis.a), length / parts});
+  for (int part = 0; part < static_cast<int>(parts); ++part) {
+    samples.push_back({axis.a + (part + 0.5) / parts * (axis.b - axis.a), length / parts});
   }
   return samples;
 }
