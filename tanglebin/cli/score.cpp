@@ -126,8 +126,8 @@ void print_tubes_score(const TubesScore& score) {
   fmt::print("centre-line error    {}  95th percentile {}\n", millimetres(score.centre_line_error),
              millimetres(score.centre_line_error_p95));
   fmt::print("centre-line coverage {:.3f}\n", score.centre_line_coverage);
-  fmt::print("joins                {} of {} found, {} made\n", score.joins_found, score.true_joins,
-             score.joins_made);
+  fmt::print("joins                {} of {} missing, {} of {} wrong\n", score.true_joins - score.joins_found,
+             score.true_joins, score.joins_made - score.joins_found, score.joins_made);
 }
 
 void print_text(const Score& score, const std::optional<TubesScore>& tubes_score) {

@@ -136,7 +136,7 @@ TEST_F(ScoreCommand, ScoresTubesTooWhereItIsGivenThem) {
   const std::string tubes = "--true-tubes " + path("true.txt") + " --tubes " + path("tubes.txt");
   EXPECT_THAT(score_example(tubes).out, HasSubstr("centre-line error    2.50 mm  95th percentile 2.50 mm\n"
                                                   "centre-line coverage 1.000\n"
-                                                  "joins                0 of 0 found, 0 made\n"));
+                                                  "joins                0 of 0 missing, 0 of 0 wrong\n"));
   const auto json = nlohmann::json::parse(score_example("--json " + tubes).out);
   EXPECT_EQ(json.at("points"), 72);
   EXPECT_NEAR(json.at("centre_line_error").get<double>(), 0.0025, 1e-12);
