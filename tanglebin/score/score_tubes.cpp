@@ -23,9 +23,10 @@ struct Sample {
 std::vector<Sample> samples(const Capsule& axis) {
   const double length = (axis.b - axis.a).norm();
   // A little less, so that rounding does not add a part to a length of whole millimetres.
-  const double parts = std::min(std::ceil(length / 0.001 - 1e-6), 1000.0);
+  const int parts = static_cast<int>(std::min(std::ceil(length / 0.001 - 1e-6), 1000.0));
   std::vector<Sample> samples;
-  for (int part = 0; part < static_cast<int>(parts); ++part) {
+  samples.reserve(static_cast<std::size_t>(parts));
+  for (int part = 0; part < parts; ++part) {
     samples.push_back({axis.a + (part + 0.5) / parts * (axis.b - axis.a), length / parts});
   }
   return samples;
