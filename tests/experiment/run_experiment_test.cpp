@@ -65,7 +65,7 @@ protected:
   }
 
   SmallDataset dataset_;
-  ExperimentSettings settings_{.methods = methods(), .ratios = {0.3, 0.7}, .seed = 5};
+  ExperimentSettings settings_{.methods = methods(), .ratios = {0.6, 1}, .seed = 5};
 };
 
 TEST_F(RunExperiment, LeavesALineForEachRunInTheOrderOfMethodCaseAndRatio) {
@@ -102,7 +102,7 @@ TEST_F(RunExperiment, SaysWhatTheResultsFollowFromAndHowLongTheDatasetTook) {
   const auto json = nlohmann::json::parse(bytes_of(results / "experiment.json"));
   EXPECT_EQ(json.at("dataset_seed"), 7);
   EXPECT_EQ(json.at("methods").size(), methods().size());
-  EXPECT_EQ(json.at("ratios"), (std::vector<double>{0.3, 0.7}));
+  EXPECT_EQ(json.at("ratios"), (std::vector<double>{0.6, 1}));
   EXPECT_EQ(json.at("seed"), 5);
   EXPECT_EQ(json.at("cases"), 1);
   EXPECT_EQ(json.at("recipe_sha256"), sha256(bytes_of(dataset_ / "recipe.toml")));
@@ -180,9 +180,9 @@ TEST_F(RunExperiment, AnotherExperimentIsNotLetIn) {
   settings_.seed = 6;
   expect_refused("seed: the directory belongs to another experiment: it has 5, this one 6");
   settings_.seed = 5;
-  settings_.ratios = {0.3};
-  expect_refused("ratios: the directory belongs to another experiment: it has [0.3,0.7], this one [0.3]");
-  settings_.ratios = {0.3, 0.7};
+  settings_.ratios = {0.6};
+  expect_refused("ratios: the directory belongs to another experiment: it has [0.6,1.0], this one [0.6]");
+  settings_.ratios = {0.6, 1};
   settings_.methods.clear();
   expect_refused("methods: the directory belongs to another experiment: ");
   settings_.methods = methods();

@@ -7,11 +7,12 @@
 
 namespace tanglebin::test {
 
-/// small_recipe()'s six cases on disk.
+/// small_recipe()'s six cases on disk, seen by a camera fine enough to model tubes.
 class SmallDataset {
 public:
   SmallDataset() {
-    const Recipe recipe = small_recipe();
+    Recipe recipe = small_recipe();
+    recipe.camera = downward_camera(480, 300, focal_length_from_hfov(480, 1.22), {0, 0, 2});
     generate_dataset(recipe, cases(recipe), directory_.path(), 1, [](std::size_t) {});
   }
 
