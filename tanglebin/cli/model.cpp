@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
@@ -19,6 +20,10 @@
 #include "tanglebin/cloud/ply.hpp"
 #include "tanglebin/cloud/read_cloud.hpp"
 #include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/dataset/images.hpp"
+#include "tanglebin/dataset/safe_file.hpp"
+#include "tanglebin/model/paper_method.hpp"
+#include "tanglebin/report/pictures_of_steps.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -34,6 +39,7 @@ struct ModelArguments {
   std::string scanner = "paper";
   double radius = KnownScene().radius;
   double length = KnownScene().length;
+  std::optional<std::string> debug_directory;
   bool json = false;
 };
 
@@ -74,17 +80,29 @@ void print_summary(const ModelArguments& arguments, const Model& model) {
   }
 }
 
+void write_pictures(const PointCloud& cloud, const KnownScene& known, const ModelArguments& arguments) {
+  const PaperModel steps =
+      model_as_in_paper(cloud, known, arguments.downsample, static_cast<std::uint64_t>(arguments.seed));
+  make_directories(*arguments.debug_directory);
+  for (const auto& [name, picture] :
+       pictures_of_steps(cloud, steps, known.bin, known.radius, arguments.cloud)) {
+    write_file(std::filesystem::path(*arguments.debug_directory) / (name + ".png"),
+               color_png(picture.width, picture.height, picture.pixels));
+  }
+}
+
 void model_cloud(const ModelArguments& arguments) {
   const PointCloud cloud = read_input(arguments.cloud, [](auto&&... from) { return read_cloud(from...); });
-  const Model model =
-      model_tubes(cloud, known_scene(arguments), method_named(arguments.method), arguments.downsample,
-                  static_cast<std::uint64_t>(arguments.seed), arguments.cloud);
+  const KnownScene known = known_scene(arguments);
+  const Model model = model_tubes(cloud, known, method_named(arguments.method), arguments.downsample,
+                                  static_cast<std::uint64_t>(arguments.seed), arguments.cloud);
   write_output(arguments.out, labelled_bytes(cloud, model, arguments.out));
   if (arguments.tubes) {
     std::ostringstream tubes;
     write_configuration(tubes, model.tubes);
     write_output(*arguments.tubes, tubes.str());
   }
+  if (arguments.debug_directory) write_pictures(cloud, known, arguments);
   if (arguments.out != standard_stream) print_summary(arguments, model);
 }
 
@@ -113,6 +131,8 @@ void add_model(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--radius", arguments->radius, "Radius of the tubes, m")->capture_default_str();
   command->add_option("--length", arguments->length, "Length of each tube, m")->capture_default_str();
+  command->add_option("--debug-dir", arguments->debug_directory,
+                      "Directory for a picture of what each step left");
   command->add_flag("--json", arguments->json, "Print the steps as JSON");
   command->footer(
       "Example:\n  tanglebin model dataset/A10/plys/1.ply --out labelled.ply --tubes tubes.txt\n"
