@@ -104,6 +104,7 @@ std::vector<double> parse_ratios(std::string_view text, const std::string& optio
   expect(std::ranges::adjacent_find(ratios) == ratios.end(), text, "each ratio once");
 
   std::vector<double> result;
+  result.reserve(ratios.size());
   for (const std::int64_t ratio : ratios) result.push_back(static_cast<double>(ratio) / billion);
   return result;
 }

@@ -11,12 +11,12 @@ ProgressLine::~ProgressLine() {
 void ProgressLine::show(std::size_t done) {
   if (!is_terminal_) return;
   if (!shown_) done_at_start_ = done;
-  const std::size_t made = done - done_at_start_;
-  const double elapsed = seconds_since(start_);
-  const double remaining =
-      made == 0 ? 0.0 : elapsed / static_cast<double>(made) * static_cast<double>(total_ - done);
-  fmt::print(stderr, "\r{} of {} cases, {:.1f} a second, {:.0f} s left \x1b[K", done, total_,
-             static_cast<double>(made) / elapsed, remaining);
+  fmt::print(stderr, "\r{} of {} cases", done, total_);
+  if (done > done_at_start_) {
+    const double pace = static_cast<double>(done - done_at_start_) / seconds_since(start_);
+    fmt::print(stderr, ", {:.2g} a second, {:.0f} s left", pace, static_cast<double>(total_ - done) / pace);
+  }
+  fmt::print(stderr, " \x1b[K");
   shown_ = true;
 }
 

@@ -16,15 +16,16 @@ double ratio_to_show(const std::vector<double>& ratios) {
 
 std::vector<MeanMicroRecall> mean_micro_recalls(const std::vector<RunResult>& results, double ratio) {
   std::vector<MeanMicroRecall> means;
-  for (const auto& [run, micro_recall, json] : results) {
-    if (run.ratio != ratio) continue;
-    const CaseId& id = run.scene;
+  for (const RunResult& result : results) {
+    if (result.run.ratio != ratio) continue;
+    const Method method = result.run.method;
+    const CaseId& id = result.run.scene;
     auto mean = std::ranges::find_if(means, [&](const MeanMicroRecall& other) {
-      return other.method == run.method && other.set == id.set && other.tubes == id.tubes;
+      return other.method == method && other.set == id.set && other.tubes == id.tubes;
     });
-    if (mean == means.end()) mean = means.insert(mean, {run.method, id.set, id.tubes, 0, 0.0});
+    if (mean == means.end()) mean = means.insert(mean, {method, id.set, id.tubes, 0, 0.0});
     ++mean->cases;
-    mean->mean += (micro_recall - mean->mean) / static_cast<double>(mean->cases);
+    mean->mean += (result.micro_recall - mean->mean) / static_cast<double>(mean->cases);
   }
   return means;
 }

@@ -18,6 +18,7 @@
 #include "small_dataset.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/experiment/results.hpp"
 
 namespace tanglebin {
 namespace {
@@ -94,6 +95,17 @@ TEST_F(RunExperiment, LeavesALineForEachRunInTheOrderOfMethodCaseAndRatio) {
       }
     }
   }
+}
+
+TEST_F(RunExperiment, ALineHasWhatModellingAndScoringTheCaseGive) {
+  const TemporaryDirectory results;
+  run(results, {{"A", 3, 2}});
+  const Dataset dataset = dataset_.read();
+  const RunId id{Method::paper, {"A", 3, 2}, 0.6};
+  const CaseData data = read_case(dataset, id.scene);
+  const Model model = model_case(dataset, data, id, settings_.seed);
+  EXPECT_EQ(lines_of(bytes_of(results / "results.jsonl")).at(0),
+            result_json(id, model, score_model(data, model)));
 }
 
 TEST_F(RunExperiment, SaysWhatTheResultsFollowFromAndHowLongTheDatasetTook) {
