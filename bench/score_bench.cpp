@@ -8,6 +8,9 @@
 #include "tanglebin/base/random.hpp"
 #include "tanglebin/score/assign.hpp"
 #include "tanglebin/score/score_clouds.hpp"
+#include "tanglebin/score/score_tubes.hpp"
+#include "tanglebin/tube/generate.hpp"
+#include "tests/tube/example_tubes.hpp"
 
 namespace {
 
@@ -83,5 +86,44 @@ void labels(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(score(truth.labels, predicted));
 }
 BENCHMARK(labels)->Arg(300'000)->Unit(benchmark::kMillisecond);
+
+/// Chains of 0.5 m, as close together as in a bin.
+std::vector<Tube> true_tubes(int count) {
+  Rng rng(9);
+  std::vector<Tube> tubes;
+  for (int id = 1; id <= count; ++id) {
+    tubes.push_back(draw_tube(rng, test::chain_spec(30), id));
+    const double x = uniform_real(rng, -0.25, 0.25);
+    const double y = uniform_real(rng, -0.15, 0.15);
+    transform(tubes.back(), Eigen::Isometry3d(Eigen::Translation3d(x, y, 0)));
+  }
+  return tubes;
+}
+
+/// The same chains with each edge cut into ten, a little off.
+std::vector<Tube> modelled_tubes(const std::vector<Tube>& truth) {
+  Rng rng(10);
+  const auto off = [&] { return uniform_real(rng, -0.002, 0.002); };
+  std::vector<Tube> modelled;
+  for (const Tube& tube : truth) {
+    std::vector<Eigen::Vector3d> points;
+    for (const Capsule& edge : capsules(tube)) {
+      for (int part = 0; part < 10; ++part) {
+        const double x = off();
+        const double y = off();
+        points.emplace_back(edge.a + part / 10.0 * (edge.b - edge.a) + Eigen::Vector3d(x, y, off()));
+      }
+    }
+    modelled.push_back(test::tube_through(points));
+  }
+  return modelled;
+}
+
+void tubes(benchmark::State& state) {
+  const std::vector<Tube> truth = true_tubes(static_cast<int>(state.range(0)));
+  const std::vector<Tube> modelled = modelled_tubes(truth);
+  for (auto _ : state) benchmark::DoNotOptimize(score_tubes(truth, modelled));
+}
+BENCHMARK(tubes)->Arg(40)->Unit(benchmark::kMillisecond);
 
 }  // namespace

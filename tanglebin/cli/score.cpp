@@ -8,14 +8,20 @@
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cloud/read_cloud.hpp"
+#include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/scan/scan.hpp"
 #include "tanglebin/score/score_clouds.hpp"
+#include "tanglebin/score/score_tubes.hpp"
+#include "tanglebin/tube/tube.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -23,6 +29,8 @@ namespace {
 struct ScoreArguments {
   std::string truth;
   std::string labels;
+  std::optional<std::string> true_tubes;
+  std::optional<std::string> tubes;
   bool json = false;
   bool confusion = false;
 };
@@ -47,10 +55,14 @@ nlohmann::ordered_json confusion_json(const Score& score) {
   return json;
 }
 
+nlohmann::ordered_json number_or_null(const auto& number) {
+  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+}
+
 nlohmann::ordered_json tube_json(const TubeScore& tube) {
   return {{"label", tube.label},
           {"points", tube.points},
-          {"assigned", tube.assigned ? nlohmann::ordered_json(*tube.assigned) : nlohmann::ordered_json()},
+          {"assigned", number_or_null(tube.assigned)},
           {"correct_points", tube.correct_points},
           {"null_points", tube.null_points},
           {"iou", tube.iou}};
@@ -76,6 +88,15 @@ nlohmann::ordered_json score_json(const Score& score) {
   return json;
 }
 
+nlohmann::ordered_json tubes_json(const TubesScore& score) {
+  return {{"centre_line_error", number_or_null(score.centre_line_error)},
+          {"centre_line_error_p95", number_or_null(score.centre_line_error_p95)},
+          {"centre_line_coverage", score.centre_line_coverage},
+          {"true_joins", score.true_joins},
+          {"joins_found", score.joins_found},
+          {"joins_made", score.joins_made}};
+}
+
 void print_tubes(const Score& score) {
   fmt::print("\n{:>8} {:>9} {:>8} {:>9} {:>9} {:>6}\n", "tube", "points", "label", "correct", "null", "IoU");
   for (const TubeScore& tube : score.tubes) {
@@ -97,7 +118,19 @@ void print_confusion(const Score& score) {
   }
 }
 
-void print_text(const Score& score) {
+std::string millimetres(const std::optional<double>& metres) {
+  return metres ? fmt::format("{:.2f} mm", *metres * 1000) : "none";
+}
+
+void print_tubes_score(const TubesScore& score) {
+  fmt::print("centre-line error    {}  95th percentile {}\n", millimetres(score.centre_line_error),
+             millimetres(score.centre_line_error_p95));
+  fmt::print("centre-line coverage {:.3f}\n", score.centre_line_coverage);
+  fmt::print("joins                {} of {} found, {} made\n", score.joins_found, score.true_joins,
+             score.joins_made);
+}
+
+void print_text(const Score& score, const std::optional<TubesScore>& tubes_score) {
   const auto& [precision, recall, f1, panoptic_quality] = score.detection;
   const Instances& instances = score.instances;
   fmt::print("micro-recall         {:.3f}  {} of {} points, {} null\n", score.micro_recall,
@@ -109,7 +142,21 @@ void print_text(const Score& score) {
   fmt::print("{} tubes, {} labels: {} correct, {} over-segmented, {} under-segmented, {} missed, {} noise\n",
              score.tubes.size(), score.confusion.segments.size(), instances.correct, instances.over_segmented,
              instances.under_segmented, instances.missed, instances.noise);
+  if (tubes_score) print_tubes_score(*tubes_score);
   print_tubes(score);
+}
+
+// Where configurations are given.
+std::optional<TubesScore> score_configurations(const ScoreArguments& arguments) {
+  if (!arguments.true_tubes || !arguments.tubes) return {};
+  const auto read = [](auto&&... from) { return read_configuration(from...); };
+  const std::vector<Tube> truth = read_input(*arguments.true_tubes, read);
+  const std::vector<Tube> modelled = read_input(*arguments.tubes, read);
+  try {
+    return score_tubes(truth, modelled);
+  } catch (const std::invalid_argument& error) {
+    throw InputError({*arguments.true_tubes, 0, ""}, error.what());
+  }
 }
 
 void score_labels(const ScoreArguments& arguments) {
@@ -117,13 +164,15 @@ void score_labels(const ScoreArguments& arguments) {
   const PointCloud truth = read_input(arguments.truth, read);
   const PointCloud labelled = read_input(arguments.labels, read);
   const Score score = score_clouds(truth, arguments.truth, labelled, arguments.labels);
+  const std::optional<TubesScore> tubes_score = score_configurations(arguments);
   if (arguments.json) {
     nlohmann::ordered_json json = score_json(score);
+    if (tubes_score) json.update(tubes_json(*tubes_score));
     if (arguments.confusion) json["confusion"] = confusion_json(score);
     fmt::print("{}\n", json.dump());
     return;
   }
-  print_text(score);
+  print_text(score, tubes_score);
   if (arguments.confusion) print_confusion(score);
 }
 
@@ -141,13 +190,19 @@ void add_score(CLI::App& app) {
                    "Cloud with labels to score: points of the truth, all or some, in any order; - reads "
                    "standard input")
       ->required();
+  CLI::Option* true_tubes = command->add_option("--true-tubes", arguments->true_tubes,
+                                                "The true tubes' configuration, to score --tubes against");
+  CLI::Option* tubes = command->add_option("--tubes", arguments->tubes,
+                                           "Configuration of the modelled tubes, to score them too");
+  true_tubes->needs(tubes);
+  tubes->needs(true_tubes);
   command->add_flag("--json", arguments->json, "Print the score as JSON");
   command->add_flag("--confusion", arguments->confusion,
                     "Also the confusion matrix: points of each tube by label");
   command->footer(
       "A cloud without labels is read by its colours: each is a label, black is null.\n\n"
       "Example:\n  tanglebin score --truth dataset/A10/plys/1.ply --labels labelled.ply\n"
-      "Measures: docs/metrics.md.");
+      "Measures: docs/metrics.md. From your own algorithm to its score: docs/scoring.md.");
   command->callback([arguments] { score_labels(*arguments); });
 }
 

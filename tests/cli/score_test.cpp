@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -71,6 +72,14 @@ private:
   PointCloud labelled_;
 };
 
+// The configuration of a straight tube along x.
+std::string tube_from(double x, double y, double length) {
+  return fmt::format(
+      "1\n1 2 1\n1 {0} {1} 0 0.0125\n2 {2} {1} 0 0.0125\n"
+      "e_1_2 1 2 1 0.0125 {3} {1} 0 0.70710678 0 0.70710678 0 {4}\n",
+      x, y, x + length, x + length / 2, length);
+}
+
 std::string one_point(const std::string& coordinates, const std::string& label) {
   return "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
          "property int label\nend_header\n" +
@@ -119,6 +128,46 @@ TEST_F(ScoreCommand, ATubeWithoutALabelHasNone) {
               HasSubstr("       1        39     none         0        39  0.000\n"));
   EXPECT_TRUE(
       nlohmann::json::parse(score("truth.ply", "one.ply", "--json").out)["tubes"][0]["assigned"].is_null());
+}
+
+TEST_F(ScoreCommand, ScoresTubesTooWhereItIsGivenThem) {
+  write("true.txt", tube_from(0, 0, 0.4));
+  write("tubes.txt", tube_from(0, 0.0025, 0.4));
+  const std::string tubes = "--true-tubes " + path("true.txt") + " --tubes " + path("tubes.txt");
+  EXPECT_THAT(score_example(tubes).out, HasSubstr("centre-line error    2.50 mm  95th percentile 2.50 mm\n"
+                                                  "centre-line coverage 1.000\n"
+                                                  "joins                0 of 0 found, 0 made\n"));
+  const auto json = nlohmann::json::parse(score_example("--json " + tubes).out);
+  EXPECT_EQ(json.at("points"), 72);
+  EXPECT_NEAR(json.at("centre_line_error").get<double>(), 0.0025, 1e-12);
+  EXPECT_NEAR(json.at("centre_line_error_p95").get<double>(), 0.0025, 1e-12);
+  EXPECT_EQ(json.at("centre_line_coverage"), 1.0);
+  for (const char* key : {"true_joins", "joins_found", "joins_made"}) EXPECT_EQ(json.at(key), 0) << key;
+  EXPECT_FALSE(nlohmann::json::parse(score_example("--json").out).contains("centre_line_error"));
+}
+
+TEST_F(ScoreCommand, WithoutAModelledTubeThereIsNoError) {
+  write("true.txt", tube_from(0, 0, 0.4));
+  write("none.txt", "0\n");
+  const std::string tubes = "--true-tubes " + path("true.txt") + " --tubes " + path("none.txt");
+  EXPECT_THAT(score_example(tubes).out, HasSubstr("centre-line error    none  95th percentile none\n"));
+  EXPECT_TRUE(nlohmann::json::parse(score_example("--json " + tubes).out)["centre_line_error"].is_null());
+}
+
+TEST_F(ScoreCommand, TakesTubesAndTrueTubesTogether) {
+  write("true.txt", tube_from(0, 0, 0.4));
+  EXPECT_EQ(score_example("--true-tubes " + path("true.txt")).status, 64);
+  EXPECT_EQ(score_example("--tubes " + path("true.txt")).status, 64);
+}
+
+TEST_F(ScoreCommand, NeedsATrueTube) {
+  write("true.txt", tube_from(0, 0, 0.4));
+  write("none.txt", "0\n");
+  const ProgramResult run =
+      score_example("--true-tubes " + path("none.txt") + " --tubes " + path("true.txt"));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.err, HasSubstr("none.txt: the true tubes have no centre line\n"));
 }
 
 TEST_F(ScoreCommand, ReadsTheLabelsFromStandardInput) {
