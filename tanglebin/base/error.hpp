@@ -8,9 +8,9 @@ namespace tanglebin {
 
 /// Where in the input something was found. An empty or zero member is not printed.
 struct InputPlace {
-  std::string file;      ///< path as the user gave it
+  std::string file{};    ///< path as the user gave it
   std::size_t line = 0;  ///< 1-based; 0 where the input has no lines (binary data, command line)
-  std::string field;     ///< name of the value: a key, a column, a property
+  std::string field{};   ///< name of the value: a key, a column, a property
 };
 
 /// Bad input: a file, a recipe or a parameter. The program prints what() on one line and exits 2.

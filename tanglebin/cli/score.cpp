@@ -155,7 +155,7 @@ std::optional<TubesScore> score_configurations(const ScoreArguments& arguments) 
   try {
     return score_tubes(truth, modelled);
   } catch (const std::invalid_argument& error) {
-    throw InputError({*arguments.true_tubes, 0, ""}, error.what());
+    throw InputError({.file = *arguments.true_tubes}, error.what());
   }
 }
 

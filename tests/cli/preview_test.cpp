@@ -1,16 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
+#include "../support/program.hpp"
+#include "../support/temporary_directory.hpp"
 #include "tanglebin/cloud/pcd.hpp"
 #include "tanglebin/cloud/ply.hpp"
 
@@ -18,6 +15,7 @@ namespace tanglebin {
 namespace {
 
 namespace fs = std::filesystem;
+using test::ProgramResult;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -30,25 +28,15 @@ constexpr const char* one_tube =
     "2 0.1 0 0.0125 0.0125\n"
     "e_1_2 1 2 1 0.0125 0 0 0.0125 0.7071067811865476 0 0.7071067811865476 0 0.2\n";
 
-struct Outcome {
-  int exit_code;
-  std::string output;  ///< what the program prints to standard output
-};
-
-/// The program and a directory of its own.
 class Preview : public testing::Test {
 protected:
   Preview() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    directory_ = fs::temp_directory_path() / ("tanglebin-" + std::to_string(getpid()) + test->name());
-    fs::create_directories(directory_);
     write("tube.txt", one_tube);
     std::ofstream ply(directory_ / "cloud.ply", std::ios::binary);
     write_ply(ply, cloud());
     std::ofstream pcd(directory_ / "cloud.pcd", std::ios::binary);
     write_pcd(pcd, cloud());
   }
-  ~Preview() override { fs::remove_all(directory_); }
 
   static PointCloud cloud() {
     PointCloud cloud;
@@ -59,52 +47,41 @@ protected:
   }
 
   void write(const std::string& name, const std::string& text) const {
-    std::ofstream(directory_ / name, std::ios::binary) << text;
+    test::write_bytes(directory_ / name, text);
   }
 
-  std::string read(const std::string& name) const {
-    std::ifstream in(directory_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string read(const std::string& name) const { return test::bytes_of(directory_ / name); }
 
   void remove(const std::string& name) const { fs::remove(directory_ / name); }
 
   bool exists(const std::string& name) const { return fs::exists(directory_ / name); }
 
   /// Runs `tanglebin preview` with these arguments, of a shell, in the directory.
-  Outcome preview(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + directory_.string() + "' && '" + TANGLEBIN_PROGRAM + "' preview " + arguments;
-    FILE* pipe = popen(command.c_str(), "r");
-    Outcome run{-1, {}};
-    std::array<char, 4096> buffer;
-    while (const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
-      run.output.append(buffer.data(), size);
-    }
-    const int status = pclose(pipe);
-    if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
-    return run;
+  ProgramResult preview(const std::string& arguments) const {
+    return test::run_shell("cd " + directory_.path().string() + " && " + TANGLEBIN_PROGRAM + " preview " +
+                           arguments);
   }
 
 private:
-  fs::path directory_;
+  test::TemporaryDirectory directory_;
 };
 
 TEST_F(Preview, DrawsConfigurationsAndClouds) {
   for (const std::string input : {"tube.txt", "cloud.ply", "cloud.pcd"}) {
-    const Outcome run = preview(input + " --width 80 --height 60 --out picture.png 2>&1");
-    EXPECT_EQ(run.exit_code, 0) << run.output;
-    EXPECT_EQ(run.output, "");
+    const ProgramResult run = preview(input + " --width 80 --height 60 --out picture.png");
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(run.err, "");
     EXPECT_THAT(read("picture.png"), StartsWith(png_signature)) << input;
     remove("picture.png");
   }
 }
 
 TEST_F(Preview, HasTheSizeAndTheViewpointThatAreAskedFor) {
-  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --out a.png").exit_code, 0);
-  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --azimuth-deg 20 --out b.png").exit_code, 0);
-  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --elevation-deg -90 --out c.png").exit_code, 0);
-  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --bin published --out d.png").exit_code, 0);
+  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --out a.png").status, 0);
+  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --azimuth-deg 20 --out b.png").status, 0);
+  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --elevation-deg -90 --out c.png").status, 0);
+  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --bin published --out d.png").status, 0);
   // The width and the height follow the signature and the head of the first chunk (PNG
   // specification, 11.2.2).
   EXPECT_EQ(read("a.png").substr(16, 8), std::string("\0\0\0\x50\0\0\0\x3c", 8));
@@ -115,10 +92,10 @@ TEST_F(Preview, HasTheSizeAndTheViewpointThatAreAskedFor) {
 
 TEST_F(Preview, ReadsStandardInputAndWritesStandardOutput) {
   for (const std::string input : {"tube.txt", "cloud.ply", "cloud.pcd"}) {
-    ASSERT_EQ(preview(input + " --width 80 --height 60 --out picture.png").exit_code, 0);
-    const Outcome run = preview("- --width 80 --height 60 --out - < " + input);
-    EXPECT_EQ(run.exit_code, 0);
-    EXPECT_EQ(run.output, read("picture.png")) << input;
+    ASSERT_EQ(preview(input + " --width 80 --height 60 --out picture.png").status, 0);
+    const ProgramResult run = preview("- --width 80 --height 60 --out - < " + input);
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.out, read("picture.png")) << input;
   }
 }
 
@@ -130,11 +107,11 @@ TEST_F(Preview, SaysWhatIsWrongWithItsInputAndExitsWith2) {
         "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
         "end_header\n");
   const auto message = [&](const std::string& arguments) {
-    const Outcome run = preview(arguments + " --out picture.png 2>&1");
-    EXPECT_EQ(run.exit_code, 2) << arguments;
+    const ProgramResult run = preview(arguments + " --out picture.png");
+    EXPECT_EQ(run.status, 2) << arguments;
     EXPECT_FALSE(exists("picture.png")) << arguments;
-    EXPECT_EQ(std::ranges::count(run.output, '\n'), 1) << run.output;
-    return run.output;
+    EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
+    return run.err;
   };
   EXPECT_THAT(message("absent.txt"), StartsWith("tanglebin: absent.txt: cannot be opened: No such file"));
   EXPECT_THAT(message("."), StartsWith("tanglebin: .: found a directory"));
@@ -152,25 +129,25 @@ TEST_F(Preview, SaysWhatIsWrongWithItsInputAndExitsWith2) {
 }
 
 TEST_F(Preview, SaysWhereItCannotWrite) {
-  const Outcome run = preview("tube.txt --width 8 --height 8 --out absent/picture.png 2>&1");
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.output, HasSubstr("absent/picture.png: cannot write: No such file or directory"));
-  const Outcome full = preview("tube.txt --width 8 --height 8 --out - 2>&1 >/dev/full");
-  EXPECT_EQ(full.exit_code, 2);
-  EXPECT_THAT(full.output, HasSubstr("standard output: cannot write"));
+  const ProgramResult run = preview("tube.txt --width 8 --height 8 --out absent/picture.png");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("absent/picture.png: cannot write: No such file or directory"));
+  const ProgramResult full = preview("tube.txt --width 8 --height 8 --out - >/dev/full");
+  EXPECT_EQ(full.status, 2);
+  EXPECT_THAT(full.err, HasSubstr("standard output: cannot write"));
 }
 
 TEST_F(Preview, ExitsWith64WhereItIsNotCalledAsItsHelpSays) {
-  EXPECT_EQ(preview("2>&1").exit_code, 64);
-  EXPECT_EQ(preview("tube.txt 2>&1").exit_code, 64);
-  EXPECT_EQ(preview("tube.txt --out a.png --width wide 2>&1").exit_code, 64);
-  EXPECT_EQ(preview("tube.txt --out a.png --colour 2>&1").exit_code, 64);
+  EXPECT_EQ(preview("").status, 64);
+  EXPECT_EQ(preview("tube.txt").status, 64);
+  EXPECT_EQ(preview("tube.txt --out a.png --width wide").status, 64);
+  EXPECT_EQ(preview("tube.txt --out a.png --colour").status, 64);
 }
 
 TEST_F(Preview, HelpHasAnExample) {
-  const Outcome run = preview("--help");
-  EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.output, HasSubstr("tanglebin preview dataset/"));
+  const ProgramResult run = preview("--help");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, HasSubstr("tanglebin preview dataset/"));
 }
 
 }  // namespace

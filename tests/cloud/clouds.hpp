@@ -12,22 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/base/error.hpp"
 #include "tanglebin/cloud/cloud.hpp"
 
 namespace tanglebin {
-
-/// What `read` has against a file; fails the test where it has nothing.
-template <class Read>
-std::string complaint(Read&& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "read without complaint";
-  return "";
-}
 
 inline bool same_float(float a, float b) {
   return a == b || (std::isnan(a) && std::isnan(b));

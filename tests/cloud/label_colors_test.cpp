@@ -7,10 +7,12 @@
 #include <cmath>
 
 #include "clouds.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
 
+using test::complaint;
 // CIELAB of an sRGB colour under D65 (CIE 15; IEC 61966-2-1), in which equal distances look equal.
 Eigen::Vector3d lab(const Color& color) {
   Eigen::Vector3d linear;

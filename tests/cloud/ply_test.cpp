@@ -12,10 +12,12 @@
 #include <stdexcept>
 
 #include "clouds.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
 
+using test::complaint;
 using testing::ElementsAre;
 using testing::IsEmpty;
 

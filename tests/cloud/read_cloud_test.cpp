@@ -9,10 +9,12 @@
 #include "clouds.hpp"
 #include "tanglebin/cloud/pcd.hpp"
 #include "tanglebin/cloud/ply.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
 
+using test::complaint;
 PointCloud read(const std::string& file) {
   std::istringstream stream(file);
   return read_cloud(stream, "cloud");

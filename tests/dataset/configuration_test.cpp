@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/base/error.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
@@ -47,12 +47,7 @@ std::string write(const std::vector<Tube>& tubes) {
 }
 
 std::string complaint(const std::string& text) {
-  try {
-    read(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return test::complaint([&] { read(text); });
 }
 
 // What is said of the two tubes after one change of their text.
@@ -238,21 +233,13 @@ TEST(Configuration, IsTheSameInEveryLocale) {
 }
 
 TEST(Configuration, NamesAFileThatIsMissing) {
-  try {
-    read_configuration(std::filesystem::path("/nowhere/tubes.txt"));
-    FAIL() << "read a file that is not there";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "/nowhere/tubes.txt: cannot be opened: No such file or directory");
-  }
+  EXPECT_EQ(test::complaint([] { read_configuration(std::filesystem::path("/nowhere/tubes.txt")); }),
+            "/nowhere/tubes.txt: cannot be opened: No such file or directory");
 }
 
 TEST(Configuration, NamesAFolderThatIsNoFile) {
-  try {
-    read_configuration(std::filesystem::temp_directory_path());
-    FAIL() << "read a folder";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("cannot be read"));
-  }
+  EXPECT_THAT(test::complaint([] { read_configuration(std::filesystem::temp_directory_path()); }),
+              HasSubstr("cannot be read"));
 }
 
 TEST(Configuration, SaysThatAFileIsEmpty) {

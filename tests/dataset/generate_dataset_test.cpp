@@ -14,16 +14,17 @@
 
 #include "../support/temporary_directory.hpp"
 #include "small_recipe.hpp"
-#include "tanglebin/base/error.hpp"
 #include "tanglebin/cloud/ply.hpp"
 #include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/dataset/sha256.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
 
 using test::bytes_of;
+using test::complaint;
 using test::files_below;
 using test::small_recipe;
 using test::TemporaryDirectory;
@@ -41,15 +42,6 @@ std::map<std::string, std::string> dataset_in(const std::filesystem::path& direc
   auto files = files_below(directory);
   files.erase("times.jsonl");
   return files;
-}
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(GenerateDataset, WritesThePublishedLayoutAndAManifestOfIt) {
@@ -155,7 +147,7 @@ TEST(GenerateDataset, AnotherRecipeIsNotLetIn) {
   Recipe recipe = small_recipe();
   generate_dataset(recipe, {{"A", 1, 1}}, directory.path(), 1, no_progress);
   recipe.seed = 8;
-  EXPECT_EQ(error_of([&] { generate(recipe, directory.path()); }),
+  EXPECT_EQ(complaint([&] { generate(recipe, directory.path()); }),
             (directory / "recipe.toml").string() +
                 ":2: the directory belongs to another recipe: it has \"seed = 7\", this one \"seed = 8\"");
 }
@@ -164,7 +156,7 @@ TEST(GenerateDataset, OneRunAtATime) {
   const TemporaryDirectory directory;
   const int other = open(directory.path().c_str(), O_RDONLY | O_DIRECTORY);
   ASSERT_EQ(flock(other, LOCK_EX), 0);
-  EXPECT_EQ(error_of([&] { generate(small_recipe(), directory.path()); }),
+  EXPECT_EQ(complaint([&] { generate(small_recipe(), directory.path()); }),
             directory.path().string() + ": another run is writing here");
   close(other);
   EXPECT_TRUE(generate(small_recipe(), directory.path()).complete());
@@ -173,7 +165,7 @@ TEST(GenerateDataset, OneRunAtATime) {
 TEST(GenerateDataset, ADirectoryThatCannotBeMadeIsAnError) {
   const TemporaryDirectory directory;
   write_bytes(directory / "file", "");
-  EXPECT_THAT(error_of([&] { generate(small_recipe(), directory / "file" / "dataset"); }),
+  EXPECT_THAT(complaint([&] { generate(small_recipe(), directory / "file" / "dataset"); }),
               HasSubstr("file: found a file, expected a directory"));
 }
 
@@ -191,7 +183,7 @@ TEST(GenerateDataset, AFullDiskLosesNoFinishedCaseAndTheRunGoesOnLater) {
   getrlimit(RLIMIT_FSIZE, &before);
   const rlimit small{.rlim_cur = 16000, .rlim_max = before.rlim_max};
   setrlimit(RLIMIT_FSIZE, &small);
-  const std::string error = error_of([&] { generate(recipe, full.path()); });
+  const std::string error = complaint([&] { generate(recipe, full.path()); });
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_THAT(error, HasSubstr("A1/plys/2.ply: cannot write: File too large"));
   EXPECT_THAT(files_below(full.path() / "A1/plys"), testing::SizeIs(1));

@@ -17,6 +17,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/case_id.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
@@ -68,12 +69,7 @@ std::string write(const Recipe& recipe) {
 }
 
 std::string complaint(const std::string& text) {
-  try {
-    read(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return test::complaint([&] { read(text); });
 }
 
 // What is said of the smallest recipe (or another) after one change of its text.
@@ -400,12 +396,8 @@ TEST(Cases, AreInTheRecipesOrder) {
 }
 
 TEST(RecipeErrors, NameAFileThatIsMissing) {
-  try {
-    read_recipe(std::filesystem::path("/nowhere/r.toml"));
-    FAIL() << "read a file that is not there";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "/nowhere/r.toml: cannot be opened: No such file or directory");
-  }
+  EXPECT_EQ(test::complaint([] { read_recipe(std::filesystem::path("/nowhere/r.toml")); }),
+            "/nowhere/r.toml: cannot be opened: No such file or directory");
 }
 
 TEST(RecipeErrors, NameAFolderThatIsNoFile) {

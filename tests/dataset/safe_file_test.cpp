@@ -14,11 +14,12 @@
 #include <thread>
 #include <vector>
 
-#include "tanglebin/base/error.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
 
+using test::complaint;
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -36,16 +37,6 @@ std::vector<std::string> names_in(const fs::path& directory) {
     names.push_back(entry.path().filename().string());
   }
   return names;
-}
-
-template <typename Action>
-std::string error_of(Action action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 /// Each test has a directory of its own, gone afterwards.
@@ -142,7 +133,7 @@ TEST_F(SafeFile, APipeStaysAPipe) {
 }
 
 TEST_F(SafeFile, AFullDeviceIsAnErrorThatSaysSo) {
-  EXPECT_THAT(error_of([] { write_file("/dev/full", "x"); }),
+  EXPECT_THAT(complaint([] { write_file("/dev/full", "x"); }),
               AllOf(HasSubstr("/dev/full"), HasSubstr("No space left on device")));
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
@@ -153,7 +144,7 @@ TEST_F(SafeFile, ADiskThatFillsUpLeavesTheOldFileAndNothingElse) {
   std::string error;
   {
     const FileSizeLimit limit(65536);
-    error = error_of([&] { write_file(directory_ / "1.ply", bytes); });
+    error = complaint([&] { write_file(directory_ / "1.ply", bytes); });
   }
   EXPECT_THAT(error, AllOf(HasSubstr((directory_ / "1.ply").string()), HasSubstr("File too large")));
   EXPECT_EQ(read(directory_ / "1.ply"), "old");
@@ -162,23 +153,23 @@ TEST_F(SafeFile, ADiskThatFillsUpLeavesTheOldFileAndNothingElse) {
 
 TEST_F(SafeFile, ADirectoryIsNotReplaced) {
   fs::create_directory(directory_ / "1.ply");
-  EXPECT_THAT(error_of([&] { write_file(directory_ / "1.ply", "x"); }), HasSubstr("Is a directory"));
+  EXPECT_THAT(complaint([&] { write_file(directory_ / "1.ply", "x"); }), HasSubstr("Is a directory"));
   EXPECT_TRUE(fs::is_directory(directory_ / "1.ply"));
   EXPECT_THAT(names_in(directory_), UnorderedElementsAre("1.ply"));
 }
 
 TEST_F(SafeFile, ADirectoryThatIsMissingOrAFileIsAnErrorThatSaysSo) {
   write_file(directory_ / "file", "x");
-  EXPECT_THAT(error_of([&] { write_file(directory_ / "missing" / "1.ply", "x"); }),
+  EXPECT_THAT(complaint([&] { write_file(directory_ / "missing" / "1.ply", "x"); }),
               HasSubstr("No such file or directory"));
-  EXPECT_THAT(error_of([&] { write_file(directory_ / "file" / "1.ply", "x"); }),
+  EXPECT_THAT(complaint([&] { write_file(directory_ / "file" / "1.ply", "x"); }),
               HasSubstr("Not a directory"));
   EXPECT_THAT(names_in(directory_), UnorderedElementsAre("file"));
 }
 
 // Not even root may make files there.
 TEST_F(SafeFile, ADirectoryThatTakesNoFilesIsAnErrorThatSaysSo) {
-  EXPECT_THAT(error_of([] { write_file("/proc/self/fdinfo/1.ply", "x"); }),
+  EXPECT_THAT(complaint([] { write_file("/proc/self/fdinfo/1.ply", "x"); }),
               AllOf(HasSubstr("/proc/self/fdinfo/1.ply: cannot write: ")));
 }
 
@@ -223,12 +214,12 @@ TEST_F(MakeDirectories, MakesAllThatAreMissing) {
 TEST_F(MakeDirectories, NamesTheFileInTheWay) {
   write_file(directory_ / "A10", "a file");
   const std::string expected = (directory_ / "A10").string() + ": found a file, expected a directory";
-  EXPECT_EQ(error_of([&] { make_directories(directory_ / "A10" / "plys" / "x"); }), expected);
-  EXPECT_EQ(error_of([&] { make_directories(directory_ / "A10"); }), expected);
+  EXPECT_EQ(complaint([&] { make_directories(directory_ / "A10" / "plys" / "x"); }), expected);
+  EXPECT_EQ(complaint([&] { make_directories(directory_ / "A10"); }), expected);
 }
 
 TEST_F(MakeDirectories, SaysWhyTheyCannotBeMade) {
-  EXPECT_THAT(error_of([] { make_directories("/proc/self/fdinfo/A10/plys"); }),
+  EXPECT_THAT(complaint([] { make_directories("/proc/self/fdinfo/A10/plys"); }),
               AllOf(HasSubstr("/proc/self/fdinfo/A10/plys"), HasSubstr("cannot make the directory: ")));
 }
 

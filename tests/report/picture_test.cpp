@@ -7,14 +7,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <limits>
 
-#include "tanglebin/base/error.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
 #include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/scan/scanner.hpp"
 #include "tests/scan/scene.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
@@ -22,6 +21,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 using test::chain;
+using test::complaint;
 
 constexpr View small{.width = 200, .height = 150};
 constexpr View from_above{
@@ -75,15 +75,6 @@ std::vector<Vector3f> sheet(float z, float spacing) {
 
 PointCloud scanned_tubes() {
   return cloud_from_scan(scan(crossing_tubes(), Bin{}, camera_preset("paper")), CloudOf::tubes, 3);
-}
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(PictureOfTubes, HasTheSizeThatIsAskedFor) {
@@ -161,12 +152,12 @@ TEST(PictureOfTubes, ShowsATubeThatLiesOutsideOfTheBin) {
 
 TEST(PictureOfTubes, RefusesWhatCannotBeDrawn) {
   const auto far = {chain(1, 0.01, {Vector3d(1e200, 0, 0), Vector3d(0, 0, 0)})};
-  EXPECT_THAT(error_of([&] { picture_of_tubes(far, Bin{}, small, "far.txt"); }),
+  EXPECT_THAT(complaint([&] { picture_of_tubes(far, Bin{}, small, "far.txt"); }),
               testing::HasSubstr("far.txt: x y z: found 1e+200 m"));
   const auto numbered = {chain(2'000'000'000, 0.01, {Vector3d(0, 0, 0), Vector3d(0.1, 0, 0)})};
-  EXPECT_EQ(error_of([&] { picture_of_tubes(numbered, Bin{}, small, "odd.txt"); }),
+  EXPECT_EQ(complaint([&] { picture_of_tubes(numbered, Bin{}, small, "odd.txt"); }),
             "odd.txt: label: found 2000000000, expected labels up to 100000");
-  EXPECT_EQ(error_of([&] { picture_of_tubes({}, Bin{}, {.width = 0}, ""); }),
+  EXPECT_EQ(complaint([&] { picture_of_tubes({}, Bin{}, {.width = 0}, ""); }),
             "width: found 0, expected 1 to 4096 pixels");
 }
 
@@ -292,14 +283,14 @@ TEST(PictureOfCloud, OfOnePointIsADot) {
 TEST(PictureOfCloud, RefusesWhatCannotBeDrawn) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const PointCloud& empty : {PointCloud{}, cloud_of({Vector3f(nan, nan, nan)})}) {
-    EXPECT_EQ(error_of([&] { picture_of_cloud(empty, small, "empty.ply"); }),
+    EXPECT_EQ(complaint([&] { picture_of_cloud(empty, small, "empty.ply"); }),
               "empty.ply: found a cloud without points, expected at least one");
   }
-  EXPECT_THAT(error_of([] { picture_of_cloud(cloud_of({Vector3f(0, 3e38F, 0)}), small, "far.ply"); }),
+  EXPECT_THAT(complaint([] { picture_of_cloud(cloud_of({Vector3f(0, 3e38F, 0)}), small, "far.ply"); }),
               testing::HasSubstr("far.ply: x y z: found 3e+38 m"));
   PointCloud labelled = cloud_of({Vector3f(0, 0, 0)});
   labelled.labels = {123'456};
-  EXPECT_EQ(error_of([&] { picture_of_cloud(labelled, small, "odd.ply"); }),
+  EXPECT_EQ(complaint([&] { picture_of_cloud(labelled, small, "odd.ply"); }),
             "odd.ply: label: found 123456, expected labels up to 100000");
 }
 

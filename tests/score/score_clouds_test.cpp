@@ -9,15 +9,16 @@
 #include <string>
 
 #include "integer.hpp"
-#include "tanglebin/base/error.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
 #include "tanglebin/cloud/ply.hpp"
 #include "tanglebin/cloud/read_cloud.hpp"
 #include "tanglebin/scan/scan.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
 
+using test::complaint;
 using Labels = std::vector<std::int32_t>;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -56,16 +57,6 @@ Score score_of(const PointCloud& truth, const PointCloud& labelled) {
 
 Labels matched(const PointCloud& truth, const PointCloud& labelled) {
   return match_points(truth, labelled, labelled.labels, "labelled.ply");
-}
-
-template <class Call>
-std::string complaint(Call&& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no complaint";
 }
 
 TEST(ScoreClouds, TheLabelledCloudMayBeASubsetInAnyOrder) {

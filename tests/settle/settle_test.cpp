@@ -15,6 +15,7 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/settle/world.hpp"
 #include "tests/settle/heaps.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
@@ -253,12 +254,7 @@ TEST(Settle, ATubeWithoutMassIsRefused) {
 }
 
 std::string complaint(const SettleSettings& settings) {
-  try {
-    validate(settings);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return test::complaint([&] { validate(settings); });
 }
 
 TEST(SettleSettings, TheDefaultsAreValid) {

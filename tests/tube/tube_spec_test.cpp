@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tanglebin/base/error.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
@@ -25,12 +26,7 @@ TubeSpec tree() {
 }
 
 std::string complaint(const TubeSpec& spec) {
-  try {
-    validate(spec, "tube");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return test::complaint([&] { validate(spec, "tube"); });
 }
 
 // What is said of a chain after one change of it.
