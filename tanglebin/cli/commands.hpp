@@ -12,5 +12,6 @@ void add_generate(CLI::App& app);
 void add_scan(CLI::App& app);
 void add_preview(CLI::App& app);
 void add_score(CLI::App& app);
+void add_report(CLI::App& app);
 
 }  // namespace tanglebin::cli
