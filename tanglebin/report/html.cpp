@@ -89,10 +89,11 @@ std::string base64(std::string_view bytes) {
 }
 
 std::string html(const HtmlTable& table) {
+  constexpr std::size_t many_columns = 14;  // more of them need smaller print to fit on paper
   std::string text = fmt::format(
-      "<figure class=\"table\"><figcaption>{}</figcaption>\n"
+      "<figure class=\"table{}\"><figcaption>{}</figcaption>\n"
       "<div class=\"scroll\" tabindex=\"0\"><table>\n<thead>\n{}</thead>\n<tbody>\n",
-      table.caption_html, head(table.columns));
+      table.columns.size() > many_columns ? " wide" : "", table.caption_html, head(table.columns));
   for (const std::vector<std::string>& cells : table.rows) text += row(table.columns, cells);
   return text + "</tbody>\n</table></div></figure>\n";
 }

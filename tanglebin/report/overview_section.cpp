@@ -65,9 +65,9 @@ std::string facts(const Results& results) {
 }
 
 // ---- What came of it
-// -----------------------------------------------------------------------------------------
+// ----------------------------------------------------------------------------------------------
 
-/// "0.912 on set A and 0.889 on set B"
+/// "0.912 (set A) and 0.889 (set B)"
 std::string recalls_of(const std::vector<RunScore>& scores, const std::string& method) {
   std::vector<std::string> words;
   for (const RunGroup& group : groups_of(scores)) {
@@ -75,44 +75,42 @@ std::string recalls_of(const std::vector<RunScore>& scores, const std::string& m
     const auto runs = chosen(scores, [&](const RunScore& score) { return is_of(score, group); });
     const double mean =
         summarize(values(runs, [](const RunScore& score) { return score.micro_recall; })).mean;
-    words.push_back(fmt::format("{:.3f} on set {}", mean, group.set));
+    words.push_back(fmt::format("{:.3f} (set {})", mean, group.set));
   }
   return joined(words);
 }
 
-std::string recall_sentence(const Results& results) {
-  if (results.scores.empty()) return "There are no scores yet. ";
+/// " and models a case of set A with 10 tubes in 0.71 s on average (published: 0.85 s)"
+std::string time_of(const std::vector<RunTime>& all, const std::string& method, double ratio, int tubes) {
+  const auto here = chosen(all, [&](const RunTime& time) {
+    return time.run.method == method && time.run.ratio == ratio && tubes_of(time) == tubes;
+  });
+  if (here.empty()) return "";
+  const RunGroup group = groups_of(here).front();
+  const auto times = chosen(here, [&](const RunTime& time) { return is_of(time, group); });
+  const double mean = summarize(values(times, [](const RunTime& time) { return time.seconds; })).mean;
+  const std::optional<double> published = published_modelling_time(group.set, tubes, ratio);
+  return fmt::format(" and models a case of set {} with {} in {} s on average{}", group.set,
+                     counted(static_cast<std::size_t>(tubes), "tube"), seconds_text(mean),
+                     published ? fmt::format(" (published: {} s)", seconds_text(published)) : "");
+}
+
+/// A sentence a method.
+std::string headline(const Results& results) {
+  if (results.scores.empty()) return "There are no scores yet.";
   const double ratio = shown_ratio(results.scores);
   const auto scores = chosen(results.scores, [&](const RunScore& score) { return score.run.ratio == ratio; });
-  std::string text;
-  for (const std::string& method : distinct(scores, [](const RunScore& score) { return score.run.method; })) {
-    text += fmt::format("With {} of the points kept, method {} reaches a mean micro-recall of {}. ",
-                        ratio == 1 ? "all" : fmt::format("a share of {}", ratio_text(ratio)), method,
-                        recalls_of(scores, method));
+  std::vector<std::string> sentences;
+  for (const std::string& method : results.experiment.methods) {
+    const std::string recalls = recalls_of(scores, method);
+    if (recalls.empty()) continue;
+    sentences.push_back(
+        fmt::format("At downsampling ratio {}, method “{}” labels a mean share of {} of the points right "
+                    "(micro-recall){}.",
+                    ratio_text(ratio), method, recalls,
+                    time_of(results.times, method, ratio, shown_tubes(results.scores))));
   }
-  return text;
-}
-
-/// "0.71 s (published: 0.85 s)"
-std::string with_published(double seconds, std::optional<double> published) {
-  const std::string beside = published ? fmt::format(" (published: {} s)", seconds_text(published)) : "";
-  return seconds_text(seconds) + " s" + beside;
-}
-
-/// How long a case of set A, or of the first set there is, took.
-std::string times_sentence(const Results& results) {
-  if (results.scores.empty() || results.times.empty()) return "";
-  const double ratio = shown_ratio(results.scores);
-  const int tubes = shown_tubes(results.scores);
-  const RunGroup group = groups_of(results.times).front();
-  const auto times = chosen(results.times, [&](const RunTime& time) {
-    return is_of(time, group) && time.run.ratio == ratio && tubes_of(time) == tubes;
-  });
-  if (times.empty()) return "";
-  const double mean = summarize(values(times, [](const RunTime& time) { return time.seconds; })).mean;
-  return fmt::format("A case of set {} with {} takes it {} on average.", group.set,
-                     counted(static_cast<std::size_t>(tubes), "tube"),
-                     with_published(mean, published_modelling_time(group.set, tubes, ratio)));
+  return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 // ---- How to run it again
@@ -141,7 +139,7 @@ std::string overview(const Results& results) {
         "This experiment is not finished: a run was cut off or is under way, and what it has done since "
         "is not on this page. The same command goes on where it stopped.");
   }
-  html += paragraph("lead", escaped(recall_sentence(results) + times_sentence(results)));
+  html += paragraph("lead", escaped(headline(results)));
   return html + facts(results) + "</header>\n";
 }
 

@@ -16,7 +16,7 @@ const char* const page_style = R"css(
 * { box-sizing: border-box; }
 html { -webkit-text-size-adjust: 100%; text-size-adjust: 100%; }
 body {
-  margin: 0 auto; padding: 2.5rem 1.25rem 4rem; max-width: 62rem; background: var(--page); color: var(--ink);
+  margin: 0 auto; padding: 2.5rem 1.25rem 4rem; max-width: 68rem; background: var(--page); color: var(--ink);
   font: 1rem/1.55 system-ui, -apple-system, "Segoe UI", "Noto Sans", "DejaVu Sans", sans-serif;
   overflow-wrap: break-word;
 }
@@ -45,7 +45,7 @@ figure { margin: 0 0 1.75rem; }
 figcaption { font-size: 0.9rem; line-height: 1.45; color: var(--soft); max-width: 44rem; }
 figcaption b { color: var(--ink); }
 .plot { color: var(--ink); }
-.plot + figcaption { margin: 0.6rem auto 0; max-width: 36rem; }
+.plot + figcaption { margin-top: 0.6rem; max-width: 34rem; }
 .table figcaption { margin-bottom: 0.5rem; }
 .scroll { overflow-x: auto; }
 .scroll:focus-visible { outline: 2px solid var(--link); outline-offset: 2px; }
@@ -59,10 +59,13 @@ thead tr:last-child th { border-bottom: 1px solid var(--ink); }
 thead th[rowspan] { border-bottom: 1px solid var(--ink); }
 th[scope="colgroup"] { text-align: center; color: var(--ink); border-bottom: 1px solid var(--line); }
 tbody th { font-weight: 600; }
-tbody tr:nth-child(even) { background: var(--shade); }
+tbody th, thead th:first-child { position: sticky; left: 0; background: var(--page); }
+tbody tr:nth-child(even), tbody tr:nth-child(even) th { background: var(--shade); }
 td.published { color: var(--soft); font-style: italic; }
 .side-by-side { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 28rem), 1fr)); gap: 0 2rem; }
 .side-by-side > * { min-width: 0; }
+.side-by-side table { width: 100%; font-size: 0.8rem; }
+.side-by-side th, .side-by-side td { padding-left: 0.3rem; padding-right: 0.3rem; }
 .pair { display: grid; grid-template-columns: 1fr 1fr; gap: 0.75rem; }
 .pair > div { min-width: 0; }
 .pair img { display: block; width: 100%; height: auto; border: 1px solid var(--line); border-radius: 3px; }
@@ -97,9 +100,10 @@ footer { margin-top: 3.5rem; padding-top: 1rem; border-top: 1px solid var(--line
   pre { white-space: pre-wrap; }
   .plot { max-width: 12cm; }
   .side-by-side { display: block; }
-  table { font-size: 7.5pt; }
-  th, td { padding: 0.15rem 0.3rem; }
-  tbody tr:nth-child(even) { background: none; }
+  table, .side-by-side table { width: auto; font-size: 7.5pt; }
+  th, td { padding: 1.5pt 4pt; }
+  .wide table { font-size: 6.5pt; }
+  .wide th, .wide td { padding: 1.5pt 2pt; }
   tbody tr { border-bottom: 0.25pt solid var(--line); }
 }
 )css";

@@ -137,7 +137,7 @@ HtmlTable table_of(const RecallLine& line, const Axis& axis, const std::string& 
                           share_text(recall.standard_deviation), share_text(recall.least),
                           share_text(recall.first_quartile), share_text(recall.median),
                           share_text(recall.third_quartile), share_text(recall.greatest)});
-    if (has_published(line)) table.rows.back().push_back(share_text(published));
+    if (has_published(line)) table.rows.back().push_back(published ? "≈ " + share_text(published) : "–");
   }
   return table;
 }

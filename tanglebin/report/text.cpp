@@ -6,9 +6,8 @@
 
 namespace tanglebin {
 
-std::string seconds_text(std::optional<double> seconds) {
-  if (!seconds) return "–";
-  return fmt::format("{:.{}f}", *seconds, *seconds < 0.1 ? 3 : 2);
+std::string seconds_text(std::optional<double> seconds, int decimals) {
+  return seconds ? fmt::format("{:.{}f}", *seconds, decimals) : "–";
 }
 
 std::string share_text(std::optional<double> share) {
@@ -25,7 +24,7 @@ std::string counted(std::size_t count, std::string_view noun) {
 
 std::string group_text(const RunGroup& group, const Results& results) {
   if (results.experiment.methods.size() < 2) return "Set " + group.set;
-  return fmt::format("Set {}, method {}", group.set, group.method);
+  return fmt::format("Set {}, {}", group.set, group.method);
 }
 
 std::string section_html(std::string_view id, std::string_view heading, const std::string& content_html) {

@@ -10,8 +10,8 @@
 // How the report words things. Text, to be escaped, but where `html` is said.
 namespace tanglebin {
 
-/// "0.034", "1.69", "28.10"; "–" for none.
-std::string seconds_text(std::optional<double> seconds);
+/// "28.10"; "–" for none. The paper has two decimals.
+std::string seconds_text(std::optional<double> seconds, int decimals = 2);
 
 /// "0.913"; "–" for none.
 std::string share_text(std::optional<double> share);

@@ -89,20 +89,22 @@ bool is_in_table_2(const std::string& set, int tubes) {
 std::vector<HtmlColumn> table_2_columns(const std::string& set, const std::vector<int>& tube_counts) {
   std::vector<HtmlColumn> columns = {{.heading = "Ratio", .group = ""}};
   for (const int tubes : tube_counts) {
-    const std::string group = counted(static_cast<std::size_t>(tubes), "tube");
+    const std::string number = std::to_string(tubes);
     if (!is_in_table_2(set, tubes)) {
-      columns.push_back({.heading = "", .group = group});
+      columns.push_back({.heading = number, .group = ""});
       continue;
     }
-    columns.push_back({.heading = "time", .group = group});
-    columns.push_back({.heading = "published", .group = group, .is_published = true});
+    columns.push_back({.heading = "time", .group = number});
+    columns.push_back({.heading = "publ.", .group = number, .is_published = true});
   }
   return columns;
 }
 
 std::string mean_time(const std::vector<RunTime>& times) {
+  constexpr int decimals = 3;  // small clouds take a few hundredths of a second
   if (times.empty()) return seconds_text(std::nullopt);
-  return seconds_text(summarize(values(times, [](const RunTime& time) { return time.seconds; })).mean);
+  return seconds_text(summarize(values(times, [](const RunTime& time) { return time.seconds; })).mean,
+                      decimals);
 }
 
 HtmlTable table_2(const Results& results, const RunGroup& group) {
@@ -110,10 +112,10 @@ HtmlTable table_2(const Results& results, const RunGroup& group) {
       chosen(results.times, [&](const RunTime& time) { return is_of(time, group); });
   const std::vector<int> tube_counts = distinct(times, [](const RunTime& time) { return tubes_of(time); });
   HtmlTable table{
-      .caption_html = fmt::format("<b>Table 2, {}.</b> Mean time to model the tubes of a case, in seconds, "
-                                  "by downsampling ratio and number of tubes{}.",
+      .caption_html = fmt::format("<b>Table 2, {}.</b> Mean time to model the tubes of a case, in seconds; "
+                                  "rows: downsampling ratio; columns: number of tubes{}.",
                                   escaped(group_text(group, results)),
-                                  group.set == "A" ? ", beside Table 2 of the paper" : ""),
+                                  group.set == "A" ? "; publ.: Table 2 of the paper" : ""),
       .columns = table_2_columns(group.set, tube_counts),
       .rows = {}};
   for (const double ratio : distinct(times, [](const RunTime& time) { return time.run.ratio; })) {

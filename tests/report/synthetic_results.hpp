@@ -11,8 +11,8 @@
 #include "../support/temporary_directory.hpp"
 #include "tanglebin/dataset/images.hpp"
 
-// Results as an experiment might give them, without the hours that it takes: a results directory whose numbers are
-// drawn, always the same, from curves like those of the paper.
+// Results as an experiment might give them, without the hours that it takes: a results directory whose
+// numbers are drawn, always the same, from curves like those of the paper.
 namespace tanglebin::test {
 
 struct SyntheticResults {
@@ -104,11 +104,10 @@ private:
         const std::string name = fmt::format("pictures/{}-{}", method, rank);
         write_bytes(directory / (name + "-truth.png"), picture_png(120, 90));
         write_bytes(directory / (name + "-labels.png"), picture_png(120, 90));
-        lines += fmt::format(
-            R"({{"method":"{}","rank":"{}",{},"ratio":0.3,"micro_recall":0.9,)"
-            R"("truth":"{}-truth.png","labels":"{}-labels.png"}})"
-            "\n",
-            method, rank, id(settings_.sets.front(), settings_.tubes.back(), 1), name, name);
+        lines += fmt::format(R"({{"method":"{}","rank":"{}",{},"ratio":0.3,"micro_recall":0.9,)"
+                             R"("truth":"{}-truth.png","labels":"{}-labels.png"}})"
+                             "\n",
+                             method, rank, id(settings_.sets.front(), settings_.tubes.back(), 1), name, name);
       }
     }
     write_bytes(directory / "pictures.jsonl", lines);
