@@ -73,6 +73,7 @@ private:
 
 pid_t start(std::vector<std::string> command, const FileActions& files) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (std::string& argument : command) arguments.push_back(argument.data());
   arguments.push_back(nullptr);
   std::string locale = "LC_ALL=C.UTF-8";

@@ -24,7 +24,7 @@ auto distinct(const std::vector<Record>& records, const Key& key) {
   std::vector<std::decay_t<decltype(key(records.front()))>> values;
   for (const Record& record : records) values.push_back(key(record));
   std::ranges::sort(values);
-  values.erase(std::ranges::unique(values).begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
 

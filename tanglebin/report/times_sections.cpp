@@ -10,6 +10,9 @@
 namespace tanglebin {
 namespace {
 
+/// A case of one tube takes a few hundredths of a second.
+constexpr int decimals = 3;
+
 double generation_seconds(const TimesRecord& record) {
   const StageTimes& times = record.times;
   return times.generate + times.settle + times.scan + times.write;
@@ -53,10 +56,10 @@ void add_table_1_cells(std::vector<std::string>& row, const std::vector<TimesRec
   std::optional<double> mean;
   if (!cases.empty()) mean = summarize(values(cases, generation_seconds)).mean;
   row.push_back(std::to_string(cases.size()));
-  row.push_back(seconds_text(mean));
+  row.push_back(seconds_text(mean, decimals));
   if (!is_in_table_1(set)) return;
   row.push_back(seconds_text(published));
-  row.push_back(mean && published ? fmt::format("{:.2f}", *mean / *published) : "–");
+  row.push_back(mean && published ? fmt::format("{:.3f}", *mean / *published) : "–");
 }
 
 HtmlTable table_1(const std::vector<TimesRecord>& records) {
@@ -101,7 +104,6 @@ std::vector<HtmlColumn> table_2_columns(const std::string& set, const std::vecto
 }
 
 std::string mean_time(const std::vector<RunTime>& times) {
-  constexpr int decimals = 3;  // small clouds take a few hundredths of a second
   if (times.empty()) return seconds_text(std::nullopt);
   return seconds_text(summarize(values(times, [](const RunTime& time) { return time.seconds; })).mean,
                       decimals);
