@@ -15,4 +15,5 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tanglebinConfig.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/tanglebinConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/tanglebinConfig.cmake ${PROJECT_BINARY_DIR}/tanglebinConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/pcl.cmake
         DESTINATION ${package_dir})

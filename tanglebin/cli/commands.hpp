@@ -11,6 +11,7 @@ namespace tanglebin::cli {
 void add_generate(CLI::App& app);
 void add_scan(CLI::App& app);
 void add_preview(CLI::App& app);
+void add_model(CLI::App& app);
 void add_score(CLI::App& app);
 void add_report(CLI::App& app);
 

@@ -20,6 +20,7 @@ int run(int argc, char** argv) {
   tanglebin::cli::add_generate(app);
   tanglebin::cli::add_scan(app);
   tanglebin::cli::add_preview(app);
+  tanglebin::cli::add_model(app);
   tanglebin::cli::add_score(app);
   tanglebin::cli::add_report(app);
   try {

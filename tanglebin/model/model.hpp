@@ -20,6 +20,10 @@ struct KnownScene {
   double length = 0.5;     ///< m, of every tube, along its centre line
 };
 
+/// Throws InputError naming the field of a scene that is none: what bin and camera refuse, a radius or length
+/// that is not a finite positive number.
+void validate(const KnownScene& known);
+
 /// What a step of a method left, and how long it took.
 struct Step {
   std::string name;   ///< "filter", "segment", …
@@ -52,7 +56,8 @@ Method method_named(const std::string& name);
 /// Models the tubes of a cloud (m; a subset of what the known camera saw, in any order; labels and colours
 /// are not looked at) from a random share `ratio` (0 < ratio ≤ 1, drawn from `seed`) of its points. Every
 /// point gets a label, those left out of the modelling too. The result follows from the arguments alone.
-/// Throws InputError with `name` for a cloud that cannot be one of the known scene: in millimetres, say.
+/// Throws InputError for a scene or ratio that is none and, with `name`, for a cloud that cannot be of this
+/// scene: one in millimetres, say.
 Model model_tubes(const PointCloud& cloud, const KnownScene& known, Method method, double ratio,
                   std::uint64_t seed, const std::string& name);
 

@@ -1,0 +1,143 @@
+#include "tanglebin/model/model.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tanglebin/cli/arguments.hpp"
+#include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cloud/label_colors.hpp"
+#include "tanglebin/cloud/pcd.hpp"
+#include "tanglebin/cloud/ply.hpp"
+#include "tanglebin/cloud/read_cloud.hpp"
+#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/dataset/images.hpp"
+#include "tanglebin/dataset/safe_file.hpp"
+#include "tanglebin/model/paper_method.hpp"
+#include "tanglebin/report/pictures_of_steps.hpp"
+
+namespace tanglebin::cli {
+namespace {
+
+struct ModelArguments {
+  std::string cloud;
+  std::string out;
+  std::optional<std::string> tubes;
+  std::string method = name_of(Method::paper);
+  double downsample = 1;
+  std::int64_t seed = 0;
+  std::string bin = "paper";
+  std::string scanner = "paper";
+  double radius = KnownScene().radius;
+  double length = KnownScene().length;
+  std::optional<std::string> debug_directory;
+  bool json = false;
+};
+
+KnownScene known_scene(const ModelArguments& arguments) {
+  return {bin_preset(arguments.bin), camera_preset(arguments.scanner), arguments.radius, arguments.length};
+}
+
+// The cloud with the labels that were found, in PLY, or in PCD where the file's name asks for it.
+std::string labelled_bytes(PointCloud cloud, const Model& model, const std::string& file) {
+  const std::vector<Color> colors = label_colors(static_cast<int>(model.tubes.size()));
+  cloud.labels = model.labels;
+  cloud.colors.clear();
+  for (const std::int32_t label : cloud.labels) {
+    cloud.colors.push_back(label == null_label ? null_color : colors[static_cast<std::size_t>(label)]);
+  }
+  std::ostringstream out;
+  if (std::filesystem::path(file).extension() == ".pcd") {
+    write_pcd(out, cloud);
+  } else {
+    write_ply(out, cloud);
+  }
+  return std::move(out).str();
+}
+
+void print_summary(const ModelArguments& arguments, const Model& model) {
+  if (arguments.json) {
+    nlohmann::ordered_json json{
+        {"cloud", arguments.out}, {"points", model.labels.size()}, {"tubes", model.tubes.size()}};
+    for (const Step& step : model.steps) {
+      json["steps"].push_back(
+          {{"name", step.name}, {"seconds", step.seconds}, {"count", step.count}, {"of", step.of}});
+    }
+    fmt::print("{}\n", json.dump());
+    return;
+  }
+  for (const Step& step : model.steps) {
+    fmt::print("{:<8} {:>8.3f} s  {:>7} {}\n", step.name, step.seconds, step.count, step.of);
+  }
+}
+
+void write_pictures(const PointCloud& cloud, const KnownScene& known, const ModelArguments& arguments) {
+  const PaperModel steps =
+      model_as_in_paper(cloud, known, arguments.downsample, static_cast<std::uint64_t>(arguments.seed));
+  make_directories(*arguments.debug_directory);
+  for (const auto& [name, picture] :
+       pictures_of_steps(cloud, steps, known.bin, known.radius, arguments.cloud)) {
+    write_file(std::filesystem::path(*arguments.debug_directory) / (name + ".png"),
+               color_png(picture.width, picture.height, picture.pixels));
+  }
+}
+
+void model_cloud(const ModelArguments& arguments) {
+  const PointCloud cloud = read_input(arguments.cloud, [](auto&&... from) { return read_cloud(from...); });
+  const KnownScene known = known_scene(arguments);
+  const Model model = model_tubes(cloud, known, method_named(arguments.method), arguments.downsample,
+                                  static_cast<std::uint64_t>(arguments.seed), arguments.cloud);
+  write_output(arguments.out, labelled_bytes(cloud, model, arguments.out));
+  if (arguments.tubes) {
+    std::ostringstream tubes;
+    write_configuration(tubes, model.tubes);
+    write_output(*arguments.tubes, tubes.str());
+  }
+  if (arguments.debug_directory) write_pictures(cloud, known, arguments);
+  if (arguments.out != standard_stream) print_summary(arguments, model);
+}
+
+}  // namespace
+
+void add_model(CLI::App& app) {
+  const auto arguments = std::make_shared<ModelArguments>();
+  CLI::App* command = app.add_subcommand("model", "Model the tubes of a cloud and label its points");
+  command->add_option("cloud", arguments->cloud, "Cloud (PLY or PCD); - reads standard input")->required();
+  command
+      ->add_option("--out", arguments->out,
+                   "The same points with labels: .ply or .pcd; - writes PLY to standard output")
+      ->required();
+  command->add_option("--tubes", arguments->tubes, "The tubes (text, docs/formats.md)");
+  command->add_option("--method", arguments->method, "Method: paper")->capture_default_str();
+  command
+      ->add_option("--downsample", arguments->downsample,
+                   "Share of the points that tubes are modelled from; every point gets a label all the same")
+      ->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Seed of the downsampling")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--bin", arguments->bin, "Bin that the tubes lie in: paper or published")
+      ->capture_default_str();
+  command->add_option("--scanner", arguments->scanner, "Camera: paper or zivid-one-plus-l")
+      ->capture_default_str();
+  command->add_option("--radius", arguments->radius, "Radius of the tubes, m")->capture_default_str();
+  command->add_option("--length", arguments->length, "Length of each tube, m")->capture_default_str();
+  command->add_option("--debug-dir", arguments->debug_directory,
+                      "Directory for a picture of what each step left");
+  command->add_flag("--json", arguments->json, "Print the steps as JSON");
+  command->footer(
+      "Example:\n  tanglebin model dataset/A10/plys/1.ply --out labelled.ply --tubes tubes.txt\n"
+      "The cloud's own labels and colours are not looked at. Methods: docs/algorithm.md.");
+  command->callback([arguments] { model_cloud(*arguments); });
+}
+
+}  // namespace tanglebin::cli

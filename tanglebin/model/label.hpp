@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tanglebin/cloud/cloud.hpp"
+#include "tanglebin/tube/tube.hpp"
+
+namespace tanglebin {
+
+struct LabelSettings {
+  double distance_max = 0.006;  ///< m, from a point to the surface of the tube that it is given to
+};
+
+/// For each of the points (indices into the cloud) the id of the tube whose cylinder or joint is nearest, or
+/// null_label where none is near enough.
+std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::vector<std::size_t>& points,
+                                           const std::vector<Tube>& tubes, const LabelSettings& settings);
+
+}  // namespace tanglebin

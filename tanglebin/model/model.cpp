@@ -1,0 +1,80 @@
+#include "tanglebin/model/model.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/model/paper_method.hpp"
+
+namespace tanglebin {
+namespace {
+
+void check_positive(double value, const std::string& field) {
+  if (!std::isfinite(value) || value <= 0) {
+    throw InputError({"", 0, field}, fmt::format("{}", value), "a positive number");
+  }
+}
+
+// A cloud many times larger than the scene is not in metres.
+void check_size(const PointCloud& cloud, const KnownScene& known, const std::string& name) {
+  Eigen::AlignedBox3f bounds;
+  for (const Eigen::Vector3f& point : cloud.points) {
+    if (point.allFinite()) bounds.extend(point);
+  }
+  if (bounds.isEmpty()) return;
+  const double size = bounds.sizes().cast<double>().maxCoeff();
+  constexpr double too_many_times = 100;
+  if (size > too_many_times * known.bin.length) {
+    throw InputError({name, 0, ""}, fmt::format("points up to {:.4g} m apart", size),
+                     fmt::format("a scan, in metres, of a bin that is {:.4g} m long; are these millimetres?",
+                                 known.bin.length));
+  }
+}
+
+}  // namespace
+
+void validate(const KnownScene& known) {
+  validate(known.bin);
+  validate(known.camera);
+  check_positive(known.radius, "radius");
+  check_positive(known.length, "length");
+}
+
+std::vector<Method> methods() {
+  return {Method::paper};
+}
+
+std::string name_of(Method method) {
+  switch (method) {
+    case Method::paper:
+      return "paper";
+  }
+  return {};
+}
+
+Method method_named(const std::string& name) {
+  std::string names;
+  for (const Method method : methods()) {
+    if (name_of(method) == name) return method;
+    names += (names.empty() ? "" : ", ") + name_of(method);
+  }
+  throw InputError({"", 0, "method"}, "\"" + name + "\"", names);
+}
+
+Model model_tubes(const PointCloud& cloud, const KnownScene& known, Method method, double ratio,
+                  std::uint64_t seed, const std::string& name) {
+  validate(known);
+  if (!(ratio > 0 && ratio <= 1)) {
+    throw InputError({"", 0, "downsample"}, fmt::format("{}", ratio), "a ratio above 0, at most 1");
+  }
+  check_size(cloud, known, name);
+  switch (method) {
+    case Method::paper:
+      return model_as_in_paper(cloud, known, ratio, seed).model;
+  }
+  return {};
+}
+
+}  // namespace tanglebin

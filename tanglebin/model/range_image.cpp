@@ -1,0 +1,56 @@
+#include "tanglebin/model/range_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+namespace tanglebin {
+namespace {
+
+// Along the camera's z axis.
+double depth_of(const Camera& camera, const Eigen::Vector3d& point) {
+  return camera.pose.linear().col(2).dot(point - camera.pose.translation());
+}
+
+}  // namespace
+
+RangeImage::RangeImage(const PointCloud& cloud, const Camera& camera)
+    : camera_(camera),
+      depths_(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
+              std::numeric_limits<float>::infinity()) {
+  for (const Eigen::Vector3f& point : cloud.points) {
+    if (!point.allFinite()) continue;
+    const std::optional<Eigen::Vector2d> image = project(camera, point.cast<double>());
+    if (!image) continue;
+    const Eigen::Vector2d pixel = image->array().round();
+    if ((pixel.array() < 0).any() || pixel.x() >= camera.width || pixel.y() >= camera.height) continue;
+    float& nearest = depths_[static_cast<std::size_t>(pixel.y()) * static_cast<std::size_t>(camera.width) +
+                             static_cast<std::size_t>(pixel.x())];
+    nearest = std::min(nearest, static_cast<float>(depth_of(camera, point.cast<double>())));
+  }
+}
+
+bool RangeImage::hides(const Eigen::Vector3d& first, const Eigen::Vector3d& second, int radius) const {
+  const std::optional<Eigen::Vector2d> first_image = project(camera_, first);
+  const std::optional<Eigen::Vector2d> second_image = project(camera_, second);
+  if (!first_image || !second_image) return false;
+  const Eigen::Vector2d middle = (*first_image + *second_image) / 2;
+  const double farther = std::max(depth_of(camera_, first), depth_of(camera_, second));
+
+  const auto clamped = [](double value, int size) {
+    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size - 1)));
+  };
+  const int left = clamped(std::round(middle.x()) - radius, camera_.width);
+  const int right = clamped(std::round(middle.x()) + radius, camera_.width);
+  const int top = clamped(std::round(middle.y()) - radius, camera_.height);
+  const int bottom = clamped(std::round(middle.y()) + radius, camera_.height);
+  for (int v = top; v <= bottom; ++v) {
+    const auto row = depths_.begin() + static_cast<std::ptrdiff_t>(v) * camera_.width;
+    if (std::any_of(row + left, row + right + 1, [&](float depth) { return depth < farther; })) return true;
+  }
+  return false;
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,61 @@
+#include "tanglebin/report/pictures_of_steps.hpp"
+
+#include <numbers>
+
+#include "tanglebin/report/picture.hpp"
+
+namespace tanglebin {
+namespace {
+
+View nearly_from_above() {
+  constexpr double degree = std::numbers::pi / 180;
+  return {.azimuth = -90 * degree, .elevation = 75 * degree};
+}
+
+PointCloud cloud_of(const std::vector<Eigen::Vector3f>& points) {
+  PointCloud cloud;
+  cloud.points = points;
+  cloud.width = points.size();
+  return cloud;
+}
+
+PointCloud clusters_of(const PaperModel& steps) {
+  PointCloud cloud = cloud_of(steps.filtered.points);
+  cloud.labels.assign(cloud.points.size(), null_label);
+  for (std::size_t i = 0; i < steps.clusters.size(); ++i) {
+    for (const std::size_t point : steps.clusters[i]) cloud.labels[point] = static_cast<std::int32_t>(i) + 1;
+  }
+  return cloud;
+}
+
+// What is labelled as the bin is left out.
+PointCloud labelled_of(const PointCloud& cloud, const Model& model) {
+  PointCloud labelled;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (model.labels[i] == bin_label) continue;
+    labelled.points.push_back(cloud.points[i]);
+    labelled.labels.push_back(model.labels[i]);
+  }
+  labelled.width = labelled.points.size();
+  return labelled;
+}
+
+}  // namespace
+
+std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const PaperModel& steps, const Bin& bin,
+                                            double radius, const std::string& name) {
+  std::vector<NamedPicture> pictures;
+  if (steps.filtered.points.empty()) return pictures;
+  const View view = nearly_from_above();
+  pictures.push_back({"1-filtered", picture_of_cloud(cloud_of(steps.filtered.points), view, name)});
+  pictures.push_back({"2-segmented", picture_of_cloud(clusters_of(steps), view, name)});
+  if (steps.cylinders.empty()) return pictures;
+  std::vector<Tube> cylinders;
+  for (const JoinedTube& alone : joined_tubes(steps.cylinders, {}, radius)) cylinders.push_back(alone.tube);
+  pictures.push_back({"3-fitted", picture_of_tubes(cylinders, bin, view, name)});
+  pictures.push_back({"4-joined", picture_of_tubes(steps.model.tubes, bin, view, name)});
+  pictures.push_back({"5-labelled", picture_of_cloud(labelled_of(cloud, steps.model), view, name)});
+  return pictures;
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tanglebin/cloud/cloud.hpp"
+#include "tanglebin/model/paper_method.hpp"
+#include "tanglebin/report/shading.hpp"
+
+namespace tanglebin {
+
+/// A picture and a name for its file, without extension.
+struct NamedPicture {
+  std::string name;
+  Picture picture;
+};
+
+/// What each step of the paper's method left (as its figures of Section 4): "1-filtered" the points by
+/// height, "2-segmented" a colour for each cluster and black for points in none, "3-fitted" the cylinders,
+/// "4-joined" and "5-labelled" a colour for each tube and black for null. All from nearly above. A step that
+/// left nothing has no picture. `cloud` is what was modelled; `name` is for messages.
+std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const PaperModel& steps, const Bin& bin,
+                                            double radius, const std::string& name);
+
+}  // namespace tanglebin
