@@ -127,6 +127,16 @@ std::string commands(const Results& results) {
       methods, fmt::join(experiment.ratios, ","), experiment.seed);
 }
 
+/// Which cases were chosen is not recorded but by the results themselves.
+std::string note_on_chosen_cases(const Results& results) {
+  if (results.generation.size() <= results.experiment.cases) return "";
+  return paragraph("note",
+                   fmt::format("These results are of {} of the dataset's {} cases; <code>--set</code>, "
+                               "<code>--tubes</code> and <code>--cases</code> of "
+                               "<code>experiment</code> choose them.",
+                               results.experiment.cases, results.generation.size()));
+}
+
 }  // namespace
 
 std::string overview(const Results& results) {
@@ -147,6 +157,7 @@ std::string how_to_repeat(const Results& results) {
   return section_html(
       "repeat", "How to make this page again",
       fmt::format("<pre tabindex=\"0\"><code>{}</code></pre>\n", escaped(commands(results))) +
+          note_on_chosen_cases(results) +
           paragraph(
               "note",
               fmt::format(

@@ -169,7 +169,7 @@ std::string script(const Plot& plot) {
       "set border 3 linewidth 1\n"
       "set tics nomirror out scale 0.6\n"
       "set grid ytics linewidth 0.5 linetype 1 linecolor rgb '#A0A0A0'\n"
-      "set key outside top center horizontal maxcols {} samplen 2.5\n"
+      "set key outside top center horizontal maxcols {} samplen 1.5 width -3\n"
       "set xlabel {}\nset ylabel {}\n"
       "set xtics {}\nset mxtics 5\n"
       "set ytics {}\n"

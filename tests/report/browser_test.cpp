@@ -33,7 +33,7 @@ addEventListener("load", () => {
   const plot = svg => ({
     width: svg.getBoundingClientRect().width,
     lines: all("g[id*=_plot_] path, g[id*=_plot_] use", mark => mark.getBBox().width + mark.getBBox().height, svg),
-    cutTexts: all("text", text => isInside(text, svg) ? 0 : 1, svg).reduce((a, b) => a + b, 0),
+    cutMarks: all("text, g[id*=_plot_] use", mark => isInside(mark, svg) ? 0 : 1, svg).reduce((a, b) => a + b, 0),
     textHeights: all("text", text => text.getBoundingClientRect().height, svg),
   });
   const ids = all("[id]", element => element.id);
@@ -94,7 +94,7 @@ void expect_a_sound_page(const json& page, std::size_t pictures, std::size_t ser
   for (const json& plot : page["plots"]) {
     EXPECT_GT(plot["width"], 300);
     EXPECT_THAT(plot["lines"].get<std::vector<double>>(), AllOf(SizeIs(Ge(series)), Each(Gt(0))));
-    EXPECT_EQ(plot["cutTexts"], 0);
+    EXPECT_EQ(plot["cutMarks"], 0);
     EXPECT_THAT(plot["textHeights"].get<std::vector<double>>(), AllOf(SizeIs(Gt(5U)), Each(Gt(9))));
   }
   EXPECT_EQ(page["idsGivenTwice"], 0);

@@ -106,6 +106,13 @@ TEST(Page, TellsTheCommandsThatMadeIt) {
       HasSubstr("tanglebin experiment dataset --out results --method paper --downsample 0.3 --seed 5\n"));
 }
 
+TEST(Page, SaysThatOnlySomeCasesOfTheDatasetWereModelled) {
+  Results results = small_results();
+  EXPECT_THAT(report_page(results), Not(HasSubstr("These results are of")));
+  results.experiment.cases = 1;
+  EXPECT_THAT(report_page(results), HasSubstr("These results are of 1 of the dataset's 2 cases"));
+}
+
 TEST(Page, SaysWhereItShowsAnotherRatioOrNumberOfTubesThanThePaper) {
   Results results = small_results();
   EXPECT_THAT(report_page(results), Not(HasSubstr("was not run")));
