@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <numbers>
 #include <vector>
 
+#include "paper_sets.hpp"
 #include "tanglebin/dataset/case_files.hpp"
 #include "tanglebin/dataset/safe_file.hpp"
 #include "tanglebin/dataset/simulate.hpp"
@@ -28,18 +28,6 @@ double seconds_since(Clock::time_point start) {
 double median(std::vector<double> values) {
   std::ranges::sort(values);
   return values[values.size() / 2];
-}
-
-// The paper's set A or B.
-Recipe paper_set(const std::string& name, double bend_max_deg) {
-  Recipe recipe;
-  recipe.seed = 2022;
-  recipe.camera = camera_preset("paper");
-  SetRecipe set;
-  set.name = name;
-  set.spec.segments[0].bend_max = bend_max_deg * std::numbers::pi / 180;
-  recipe.sets.push_back(set);
-  return recipe;
 }
 
 void generate_cases(benchmark::State& state, const Recipe& recipe) {

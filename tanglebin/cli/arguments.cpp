@@ -1,6 +1,9 @@
 #include "tanglebin/cli/arguments.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -26,6 +29,29 @@ std::optional<std::pair<int, int>> parse_pair(std::string_view text, char separa
   return std::pair{*first, *second};
 }
 
+// Ratios are counted in billionths, so that 0.1 and two steps of 0.1 are 0.3 to the last bit.
+constexpr double billion = 1e9;
+
+std::optional<std::int64_t> parse_billionths(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !(value > 0 && value <= 1))
+    return std::nullopt;
+  const std::int64_t billionths = std::llround(value * billion);
+  if (static_cast<double>(billionths) / billion != value) return std::nullopt;
+  return billionths;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t end = text.find(separator); end != std::string_view::npos; end = text.find(separator)) {
+    parts.push_back(text.substr(0, end));
+    text.remove_prefix(end + 1);
+  }
+  parts.push_back(text);
+  return parts;
+}
+
 std::string quoted(std::string_view text) {
   return '"' + std::string(text) + '"';
 }
@@ -48,6 +74,39 @@ Range parse_range(std::string_view text, const std::string& option) {
     throw InputError({"", 0, option}, quoted(text), "a number or a range such as 1-20");
   }
   return {two->first, two->second};
+}
+
+std::vector<double> parse_ratios(std::string_view text, const std::string& option) {
+  const auto expect = [&](bool holds, std::string_view found, const std::string& expected) {
+    if (!holds) throw InputError({"", 0, option}, quoted(found), expected);
+  };
+  const auto billionths_of = [&](std::string_view part) {
+    const auto billionths = parse_billionths(part);
+    expect(billionths.has_value(), part, "a ratio above 0, at most 1 and of at most nine decimals");
+    return *billionths;
+  };
+
+  const std::vector<std::string_view> range = split(text, ':');
+  std::vector<std::int64_t> ratios;
+  if (range.size() == 1) {
+    for (const std::string_view part : split(text, ',')) ratios.push_back(billionths_of(part));
+  } else {
+    expect(range.size() == 3, text, "ratios such as 0.1,0.3 or first:last:step such as 0.1:1.0:0.1");
+    const std::int64_t first = billionths_of(range[0]);
+    const std::int64_t last = billionths_of(range[1]);
+    const std::int64_t step = billionths_of(range[2]);
+    expect(first <= last && (last - first) % step == 0, text, "a step that leads from the first to the last");
+    constexpr std::int64_t most_steps = 999;
+    expect((last - first) / step <= most_steps, text, "at most a thousand ratios");
+    for (std::int64_t ratio = first; ratio <= last; ratio += step) ratios.push_back(ratio);
+  }
+  std::ranges::sort(ratios);
+  expect(std::ranges::adjacent_find(ratios) == ratios.end(), text, "each ratio once");
+
+  std::vector<double> result;
+  result.reserve(ratios.size());
+  for (const std::int64_t ratio : ratios) result.push_back(static_cast<double>(ratio) / billion);
+  return result;
 }
 
 Shard parse_shard(std::string_view text, const std::string& option) {

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tanglebin/dataset/safe_file.hpp"
 
@@ -37,6 +38,12 @@ struct Shard {
   int index = 1;
   int count = 1;
 };
+
+/// "0.1,0.3" or "0.1:1.0:0.1" (first:last:step, both ends in it): the double nearest to each decimal number,
+/// ascending. Throws InputError naming `option` for anything else: a ratio that is not in (0, 1] or has more
+/// than nine decimals, one that is there twice, a step that does not lead from first to last, more than a
+/// thousand ratios.
+std::vector<double> parse_ratios(std::string_view text, const std::string& option);
 
 /// "2/8". Throws InputError naming `option` for anything else.
 Shard parse_shard(std::string_view text, const std::string& option);

@@ -13,5 +13,7 @@ void add_scan(CLI::App& app);
 void add_preview(CLI::App& app);
 void add_model(CLI::App& app);
 void add_score(CLI::App& app);
+void add_experiment(CLI::App& app);
+void add_report(CLI::App& app);
 
 }  // namespace tanglebin::cli

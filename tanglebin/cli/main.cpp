@@ -22,6 +22,8 @@ int run(int argc, char** argv) {
   tanglebin::cli::add_preview(app);
   tanglebin::cli::add_model(app);
   tanglebin::cli::add_score(app);
+  tanglebin::cli::add_experiment(app);
+  tanglebin::cli::add_report(app);
   try {
     app.parse(argc, argv);  // runs the chosen command's callback
   } catch (const CLI::ParseError& error) {

@@ -1,7 +1,5 @@
 #include "tanglebin/dataset/case_files.hpp"
 
-#include <fmt/core.h>
-
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -30,8 +28,7 @@ std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const S
   const CloudOf points = output.bin_points ? CloudOf::tubes_and_bin : CloudOf::tubes;
   std::vector<CaseFile> files;
   const auto add = [&](std::string_view kind, std::string_view extension, std::string bytes) {
-    const std::string folder = folder_name(id.set, id.tubes);
-    files.push_back({fmt::format("{}/{}/{}.{}", folder, kind, id.number, extension), std::move(bytes)});
+    files.push_back({file_of(id, kind, extension), std::move(bytes)});
   };
 
   add("plys", "ply",

@@ -1,51 +1,27 @@
 #include "tanglebin/dataset/generate_dataset.hpp"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/file.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/case_files.hpp"
+#include "tanglebin/dataset/directory_lock.hpp"
+#include "tanglebin/dataset/finished_cases.hpp"
 #include "tanglebin/dataset/journal.hpp"
 #include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/dataset/safe_file.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/dataset/simulate.hpp"
-#include "tanglebin/dataset/workers.hpp"
 
 namespace tanglebin {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Keeps a directory for one run and its workers. The kernel gives it back when the last of them ends.
-class DirectoryLock {
-public:
-  explicit DirectoryLock(const fs::path& directory)
-      : descriptor_(open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (descriptor_ < 0) throw InputError({directory.string(), 0, ""}, std::strerror(errno));
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      close(descriptor_);
-      throw InputError({directory.string(), 0, ""}, "another run is writing here");
-    }
-  }
-  ~DirectoryLock() { close(descriptor_); }
-  DirectoryLock(const DirectoryLock&) = delete;
-  DirectoryLock& operator=(const DirectoryLock&) = delete;
-
-private:
-  int descriptor_;
-};
 
 std::string text_of(const Recipe& recipe) {
   std::ostringstream out;
@@ -91,8 +67,8 @@ std::size_t count_points(const Scan& scan, bool with_bin) {
   return points;
 }
 
-// One case from the recipe to the journal.
-void make_case(const Recipe& recipe, const CaseId& id, const fs::path& directory, const Journal& journal) {
+// One case from the recipe to its files; returns what the journal is to have of it.
+std::string make_case(const Recipe& recipe, const CaseId& id, const fs::path& directory) {
   const Scene scene = simulate(recipe, id);
 
   const auto start = std::chrono::steady_clock::now();
@@ -110,7 +86,7 @@ void make_case(const Recipe& recipe, const CaseId& id, const fs::path& directory
   }
   TimesRecord times{id, scene.times, peak_memory()};
   times.times.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  journal.append(record, times);
+  return journal_line(record, times);
 }
 
 }  // namespace
@@ -131,7 +107,6 @@ GenerateSummary generate_dataset(const Recipe& recipe, const std::vector<CaseId>
   GenerateSummary summary{
       .wanted = wanted.size(), .found = wanted.size() - missing.size(), .made = 0, .rejected = 0};
 
-  // Whatever ends the run, what is done gets into the manifest.
   const auto finish = [&] {
     const FinishedCases after = finished_cases(directory);
     for (const CaseId& id : missing) {
@@ -142,16 +117,10 @@ GenerateSummary generate_dataset(const Recipe& recipe, const std::vector<CaseId>
     }
     write_manifest(directory, after, all);
   };
-  try {
-    const Journal journal(directory);
-    run_in_workers(
-        jobs, missing.size(), [&](std::size_t task) { make_case(recipe, missing[task], directory, journal); },
-        [&](std::size_t done) { progress(summary.found + done); });
-  } catch (...) {
-    finish();
-    throw;
-  }
-  finish();
+  run_with_journal(
+      directory, jobs, missing.size(),
+      [&](std::size_t task) { return make_case(recipe, missing[task], directory); },
+      [&](std::size_t done) { progress(summary.found + done); }, finish);
   return summary;
 }
 

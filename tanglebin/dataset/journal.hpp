@@ -1,44 +1,31 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
-#include <map>
-#include <vector>
+#include <functional>
+#include <string>
+#include <string_view>
 
-#include "tanglebin/dataset/manifest.hpp"
+#include "tanglebin/dataset/workers.hpp"
 
 namespace tanglebin {
 
-/// What is known of the cases that are finished, whose files are whole.
-struct FinishedCases {
-  std::map<CaseId, CaseRecord> records;
-  std::map<CaseId, TimesRecord> times;
-};
+/// The journal of a directory: a line for each task that is done and not yet in the directory's other files.
+/// A run that is cut off leaves it behind; the next one reads it.
+std::filesystem::path journal_of(const std::filesystem::path& directory);
 
-/// The journal of a dataset's directory: a line for each case that has been finished since the manifest was
-/// written. A run that is cut off leaves it behind; the next one reads it.
-class Journal {
-public:
-  /// Opens it for this process and those that it forks. Throws InputError where that cannot be done.
-  explicit Journal(const std::filesystem::path& directory);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
+/// Calls `take` with every line of the file that has its end, and the line's number: a last line that was cut
+/// off is passed over. A file that is not there has no lines.
+void for_each_whole_line(const std::filesystem::path& file,
+                         const std::function<void(const std::string&, std::size_t)>& take);
 
-  /// Adds a case, on the disk when it returns. Lines of several processes do not mix.
-  void append(const CaseRecord& record, const TimesRecord& times) const;
+/// A task whose result is a line for the journal.
+using JournaledTask = std::function<std::string(std::size_t task)>;
 
-private:
-  std::filesystem::path file_;
-  int descriptor_;
-};
-
-/// What manifest, times and journal of the directory say. A last line of the journal that was cut off is
-/// passed over; throws InputError for any other that cannot be read.
-FinishedCases finished_cases(const std::filesystem::path& directory);
-
-/// Writes manifest.jsonl and times.jsonl, a line for each finished case in the order of `order`, and removes
-/// the journal.
-void write_manifest(const std::filesystem::path& directory, const FinishedCases& finished,
-                    const std::vector<CaseId>& order);
+/// run_in_workers(), in which a task is done when its line is in the directory's journal and on the disk.
+/// Whatever ends the run, `finish` is called at its end, to move the journal's lines to where they belong.
+void run_with_journal(const std::filesystem::path& directory, int jobs, std::size_t count,
+                      const JournaledTask& task, const Progress& progress,
+                      const std::function<void()>& finish);
 
 }  // namespace tanglebin

@@ -3,23 +3,12 @@
 #include <fmt/core.h>
 
 #include <charconv>
-#include <nlohmann/json.hpp>
 #include <string>
 
-#include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/json_line.hpp"
 
 namespace tanglebin {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json id_json(const CaseId& id) {
-  return {{"set", id.set}, {"tubes", id.tubes}, {"case", id.number}};
-}
-
-CaseId id_from(const Json& json) {
-  return {json.at("set").get<std::string>(), json.at("tubes").get<int>(), json.at("case").get<int>()};
-}
 
 // Hexadecimal text, since many readers of JSON take a number for a double, which cannot hold all of a seed.
 std::string seed_text(std::uint64_t seed) {
@@ -35,16 +24,6 @@ std::uint64_t seed_from(const Json& json) {
     throw Json::other_error::create(501, "seed is not a hexadecimal number", nullptr);
   }
   return seed;
-}
-
-// Reads one line; whatever is wrong with it becomes an InputError that says where.
-template <typename Read>
-auto read_line(const std::string& line, const std::string& file, std::size_t number, const Read& read) {
-  try {
-    return read(Json::parse(line));
-  } catch (const Json::exception& error) {
-    throw InputError({file, number, ""}, error.what());
-  }
 }
 
 }  // namespace
@@ -79,7 +58,7 @@ std::string to_json(const TimesRecord& record) {
 }
 
 CaseRecord case_record(const std::string& json, const std::string& file, std::size_t line) {
-  return read_line(json, file, line, [](const Json& value) {
+  return read_json_line(json, file, line, [](const Json& value) {
     CaseRecord record{id_from(value),
                       seed_from(value.at("seed")),
                       value.at("simulated").get<double>(),
@@ -100,7 +79,7 @@ CaseRecord case_record(const std::string& json, const std::string& file, std::si
 }
 
 TimesRecord times_record(const std::string& json, const std::string& file, std::size_t line) {
-  return read_line(json, file, line, [](const Json& value) {
+  return read_json_line(json, file, line, [](const Json& value) {
     return TimesRecord{id_from(value),
                        {value.at("generate").get<double>(), value.at("settle").get<double>(),
                         value.at("scan").get<double>(), value.at("write").get<double>()},

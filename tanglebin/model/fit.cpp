@@ -130,11 +130,12 @@ std::vector<Cylinder> fit_cylinders(const OrientedCloud& cloud, const std::vecto
     if (!found) break;
     Cylinder piece = densest_piece(cloud, *found, settings);
     if (piece.points.size() < static_cast<std::size_t>(settings.points_min)) break;
+    const bool is_long_enough = (piece.ends[1] - piece.ends[0]).norm() >= settings.length_min;
     std::erase_if(left, [&](std::size_t i) {
       return is_about(piece, cloud.points[i].cast<double>(), radius, settings) ||
              std::ranges::binary_search(piece.points, i);
     });
-    cylinders.push_back(std::move(piece));
+    if (is_long_enough) cylinders.push_back(std::move(piece));
   }
   return cylinders;
 }

@@ -15,10 +15,11 @@ struct FitSettings {
   double normal_weight = 0.02;     ///< w, the normal's error in radians
   double radius_tolerance = 0.15;  ///< of the known radius, either way
   double sample_distance = 0.05;   ///< m, between the two points that a trial cylinder is made of, at most
-  int iterations_max = 300;        ///< trials for one cylinder
+  int iterations_max = 150;        ///< trials for one cylinder
   int points_min = 12;             ///< inliers of a cylinder; also what must be left of a cluster to go on
   double gap_max = 0.02;           ///< m, along the axis; inliers beyond a longer gap are another cylinder's
   double claim_distance = 0.005;   ///< m; points this near to a cylinder's surface are not fitted again
+  double length_min = 0.005;       ///< m, after trimming; shorter pieces have no direction to speak of
   double trim = 0.004;             ///< m, taken off each end, which reaches into the bend
 };
 

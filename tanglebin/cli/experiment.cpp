@@ -1,0 +1,137 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tanglebin/cli/arguments.hpp"
+#include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/many_cases.hpp"
+#include "tanglebin/cli/progress_line.hpp"
+#include "tanglebin/experiment/run_experiment.hpp"
+#include "tanglebin/experiment/summary.hpp"
+#include "tanglebin/report/write_pictures.hpp"
+
+namespace tanglebin::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct ExperimentArguments {
+  std::string dataset;
+  std::string out;
+  std::vector<std::string> methods;
+  std::string ratios = "0.1:1.0:0.1";
+  ManyCases many;
+  std::int64_t seed = 0;
+  bool json = false;
+};
+
+// All methods, or those that were asked for.
+std::vector<Method> methods_of(const ExperimentArguments& arguments) {
+  if (arguments.methods.empty()) return methods();
+  std::vector<Method> asked;
+  for (const std::string& name : arguments.methods) asked.push_back(method_named(name));
+  std::vector<Method> result = methods();
+  std::erase_if(result, [&](Method method) { return std::ranges::find(asked, method) == asked.end(); });
+  return result;
+}
+
+void print_json(const ExperimentArguments& arguments, const ExperimentSummary& summary,
+                const std::vector<MeanMicroRecall>& means, double ratio, double seconds) {
+  nlohmann::ordered_json json{{"directory", arguments.out},
+                              {"wanted", summary.wanted},
+                              {"found", summary.found},
+                              {"made", summary.made},
+                              {"complete", summary.complete()},
+                              {"seconds", seconds},
+                              {"ratio", ratio}};
+  json["micro_recall"] = nlohmann::ordered_json::array();
+  for (const MeanMicroRecall& mean : means) {
+    json["micro_recall"].push_back({{"method", name_of(mean.method)},
+                                    {"set", mean.set},
+                                    {"tubes", mean.tubes},
+                                    {"cases", mean.cases},
+                                    {"mean", mean.mean}});
+  }
+  fmt::print("{}\n", json.dump());
+}
+
+// A line for each method and set.
+void print_means(const std::vector<MeanMicroRecall>& means) {
+  const auto same_line = [](const MeanMicroRecall& a, const MeanMicroRecall& b) {
+    return a.method == b.method && a.set == b.set;
+  };
+  for (auto mean = means.begin(); mean != means.end();) {
+    fmt::print("{}, set {}:", name_of(mean->method), mean->set);
+    const auto first = mean;
+    for (; mean != means.end() && same_line(*first, *mean); ++mean) {
+      fmt::print("{} {:.3f} ({} {})", mean == first ? "" : ",", mean->mean, mean->tubes,
+                 mean->tubes == 1 ? "tube" : "tubes");
+    }
+    fmt::print("\n");
+  }
+}
+
+void print_text(const ExperimentArguments& arguments, const ExperimentSummary& summary,
+                const std::vector<MeanMicroRecall>& means, double ratio, double seconds) {
+  if (!means.empty()) fmt::print("mean micro-recall at ratio {}\n", ratio);
+  print_means(means);
+  fmt::print("{}: {} cases modelled in {:.1f} s, {} were there{}\n", arguments.out, summary.made, seconds,
+             summary.found,
+             summary.complete()
+                 ? ""
+                 : fmt::format("; stopped, {} to go", summary.wanted - summary.found - summary.made));
+}
+
+void experiment(const ExperimentArguments& arguments) {
+  const ExperimentSettings settings{.methods = methods_of(arguments),
+                                    .ratios = parse_ratios(arguments.ratios, "--downsample"),
+                                    .seed = static_cast<std::uint64_t>(arguments.seed)};
+  const Dataset dataset = read_dataset(arguments.dataset);
+  const std::vector<CaseId> wanted = chosen(arguments.many, cases(dataset), arguments.dataset);
+  const Clock::time_point start = Clock::now();
+  const ExperimentSummary summary = [&] {
+    ProgressLine line(wanted.size());
+    return run_experiment(dataset, settings, wanted, arguments.out, arguments.many.jobs,
+                          [&](std::size_t done) { line.show(done); });
+  }();
+  if (summary.complete()) write_pictures(arguments.out, dataset, settings);
+  const double ratio = ratio_to_show(settings.ratios);
+  const auto print = arguments.json ? print_json : print_text;
+  print(arguments, summary, mean_micro_recalls(read_results(arguments.out), ratio), ratio,
+        seconds_since(start));
+  if (!summary.complete()) throw CLI::RuntimeError(exit_interrupted);
+}
+
+}  // namespace
+
+void add_experiment(CLI::App& app) {
+  const auto arguments = std::make_shared<ExperimentArguments>();
+  CLI::App* command =
+      app.add_subcommand("experiment", "Model and score every case of a dataset, as the paper's Section 6");
+  command->add_option("dataset", arguments->dataset, "Directory of a dataset made by generate")->required();
+  command->add_option("--out", arguments->out, "Directory of the results; a run that was stopped goes on")
+      ->required();
+  command->add_option("--method", arguments->methods, "Only these methods");
+  command
+      ->add_option("--downsample", arguments->ratios,
+                   "Shares of the points to model from: 0.1,0.3 or first:last:step")
+      ->capture_default_str();
+  add_options(*command, arguments->many);
+  command->add_option("--seed", arguments->seed, "Of the random choices that the methods make")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--json", arguments->json, "Print the summary as JSON");
+  command->footer(
+      "Example:\n  tanglebin experiment dataset --out results --downsample 0.3 --tubes 10 --cases 1-3\n"
+      "Formats: docs/formats.md. Ctrl-C finishes the cases under way; the same command goes on.");
+  command->callback([arguments] { experiment(*arguments); });
+}
+
+}  // namespace tanglebin::cli

@@ -1,0 +1,71 @@
+#include "tanglebin/dataset/dataset.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string_view>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/cloud/ply.hpp"
+#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/dataset/sha256.hpp"
+
+namespace tanglebin {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    throw InputError({file.string(), 0, ""}, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A file of a case, whole as it was written, and its name for messages.
+struct CheckedFile {
+  std::string name;
+  std::istringstream in;
+};
+
+CheckedFile open_checked(const Dataset& dataset, const CaseId& id, std::string_view kind,
+                         std::string_view extension) {
+  const std::string path = file_of(id, kind, extension);
+  const std::vector<FileRecord>& files = dataset.finished.records.at(id).files;
+  const auto record = std::ranges::find(files, path, &FileRecord::path);
+  const fs::path file = dataset.directory / path;
+  if (record == files.end()) throw InputError({file.string(), 0, ""}, "not in the manifest");
+  const std::string bytes = bytes_of(file);
+  if (const std::string found = sha256(bytes); found != record->sha256) {
+    throw InputError({file.string(), 0, "sha256"}, found, record->sha256 + ", as the manifest says");
+  }
+  return {file.string(), std::istringstream(bytes)};
+}
+
+}  // namespace
+
+Dataset read_dataset(const fs::path& directory) {
+  const fs::path file = directory / "recipe.toml";
+  const std::string text = bytes_of(file);
+  std::istringstream in(text);
+  return {directory, read_recipe(in, file.string()), sha256(text), finished_cases(directory)};
+}
+
+std::vector<CaseId> cases(const Dataset& dataset) {
+  std::vector<CaseId> there = cases(dataset.recipe);
+  std::erase_if(there, [&](const CaseId& id) { return !dataset.finished.records.contains(id); });
+  return there;
+}
+
+CaseData read_case(const Dataset& dataset, const CaseId& id) {
+  CheckedFile cloud = open_checked(dataset, id, "plys", "ply");
+  CheckedFile tubes = open_checked(dataset, id, "tube_configurations", "txt");
+  return {cloud.name, read_ply(cloud.in, cloud.name), read_configuration(tubes.in, tubes.name)};
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,215 @@
+#include "tanglebin/experiment/results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/journal.hpp"
+#include "tanglebin/dataset/json_line.hpp"
+#include "tanglebin/dataset/safe_file.hpp"
+
+namespace tanglebin {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path experiment_of(const fs::path& directory) {
+  return directory / "experiment.json";
+}
+fs::path results_of(const fs::path& directory) {
+  return directory / "results.jsonl";
+}
+fs::path times_of(const fs::path& directory) {
+  return directory / "times.jsonl";
+}
+
+// Between the lines of a case in the journal; JSON escapes a tab inside.
+constexpr char separator = '\t';
+
+Json run_json(const RunId& run) {
+  Json json = id_json(run.scene);
+  json["method"] = name_of(run.method);
+  json["ratio"] = run.ratio;
+  return json;
+}
+
+RunId run_from(const Json& json) {
+  return {method_named(json.at("method").get<std::string>()), id_from(json), json.at("ratio").get<double>()};
+}
+
+RunResult run_result(const std::string& line, const std::string& file, std::size_t number) {
+  return read_json_line(line, file, number, [&](const Json& json) {
+    return RunResult{run_from(json), json.at("micro_recall").get<double>(), line};
+  });
+}
+
+void add_result(FinishedRuns& finished, const std::string& line, const std::string& file,
+                std::size_t number) {
+  RunResult result = run_result(line, file, number);
+  const RunId run = result.run;
+  finished.results.insert_or_assign(run, std::move(result));
+}
+
+void add_times(FinishedRuns& finished, const std::string& line, const std::string& file, std::size_t number) {
+  finished.times.insert_or_assign(read_json_line(line, file, number, run_from), line);
+}
+
+void add_journal_line(FinishedRuns& finished, const std::string& line, const std::string& file,
+                      std::size_t number) {
+  std::istringstream parts(line);
+  std::string result;
+  std::string times;
+  while (std::getline(parts, result, separator)) {
+    if (!std::getline(parts, times, separator))
+      throw InputError({file, number, ""}, "a result without times", "both, a tab between them");
+    add_result(finished, result, file, number);
+    add_times(finished, times, file, number);
+  }
+}
+
+// What the results follow from.
+Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings) {
+  Json json{{"version", TANGLEBIN_VERSION}, {"dataset_seed", dataset.recipe.seed}};
+  json["methods"] = Json::array();
+  for (const Method method : settings.methods) json["methods"].push_back(name_of(method));
+  json["ratios"] = settings.ratios;
+  json["seed"] = settings.seed;
+  json["recipe_sha256"] = dataset.recipe_sha256;
+  return json;
+}
+
+// The text of experiment.json, which says besides how many cases there are results of.
+std::string experiment_text(Json experiment, std::size_t cases) {
+  experiment["cases"] = cases;
+  return experiment.dump() + '\n';
+}
+
+Json read_experiment(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return read_json_line(text, file.string(), 1, [](const Json& json) { return json; });
+}
+
+// Calls `take` with every run of the experiment in the order of the results' lines.
+void for_each_run(const std::vector<CaseId>& cases, const ExperimentSettings& settings,
+                  const std::function<void(const RunId&)>& take) {
+  for (const Method method : settings.methods)
+    for (const CaseId& id : cases)
+      for (const double ratio : settings.ratios) take({method, id, ratio});
+}
+
+}  // namespace
+
+std::string result_json(const RunId& run, const Model& model, const ModelScore& score) {
+  const auto& [labels, tubes] = score;
+  Json json = run_json(run);
+  json["points"] = labels.points;
+  json["micro_recall"] = labels.micro_recall;
+  json["mean_iou"] = labels.mean_iou;
+  json["precision"] = labels.detection.precision;
+  json["recall"] = labels.detection.recall;
+  json["f1"] = labels.detection.f1;
+  json["panoptic_quality"] = labels.detection.panoptic_quality;
+  json["adjusted_rand_index"] = labels.adjusted_rand_index;
+  json["correct"] = labels.instances.correct;
+  json["over_segmented"] = labels.instances.over_segmented;
+  json["under_segmented"] = labels.instances.under_segmented;
+  json["missed"] = labels.instances.missed;
+  json["noise"] = labels.instances.noise;
+  json["tubes_found"] = model.tubes.size();
+  json["centre_line_error"] = tubes.centre_line_error ? Json(*tubes.centre_line_error) : Json();
+  json["centre_line_coverage"] = tubes.centre_line_coverage;
+  json["true_joins"] = tubes.true_joins;
+  json["joins_found"] = tubes.joins_found;
+  json["joins_made"] = tubes.joins_made;
+  json["counts"] = Json::object();
+  for (const Step& step : model.steps) json["counts"][step.name] = step.count;
+  return json.dump();
+}
+
+std::string times_json(const RunId& run, const Model& model, double seconds) {
+  Json json = run_json(run);
+  json["seconds"] = seconds;
+  json["steps"] = Json::object();
+  for (const Step& step : model.steps) json["steps"][step.name] = step.seconds;
+  return json.dump();
+}
+
+std::string journal_line(const std::vector<std::string>& lines) {
+  return fmt::format("{}", fmt::join(lines, std::string(1, separator)));
+}
+
+bool FinishedRuns::has(const CaseId& id, const ExperimentSettings& settings) const {
+  bool all = true;
+  for_each_run({id}, settings, [&](const RunId& run) { all = all && results.contains(run); });
+  return all;
+}
+
+FinishedRuns finished_runs(const fs::path& directory) {
+  FinishedRuns finished;
+  const auto read = [&](const fs::path& file, const auto& add) {
+    for_each_whole_line(file, [&](const std::string& line, std::size_t number) {
+      add(finished, line, file.string(), number);
+    });
+  };
+  read(results_of(directory), add_result);
+  read(times_of(directory), add_times);
+  read(journal_of(directory), add_journal_line);
+  return finished;
+}
+
+void claim(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings) {
+  if (fs::exists(directory / "manifest.jsonl"))
+    throw InputError({directory.string(), 0, ""}, "a dataset", "a directory for results");
+  const fs::path file = experiment_of(directory);
+  const Json wanted = experiment_json(dataset, settings);
+  if (!fs::exists(file)) {
+    write_file(file, experiment_text(wanted, 0));
+    return;
+  }
+  const Json found = read_experiment(file);
+  for (const auto& [key, value] : wanted.items()) {
+    const Json other = found.value(key, Json());
+    if (other == value) continue;
+    throw InputError({file.string(), 0, key},
+                     fmt::format("the directory belongs to another experiment: it has {}, this one {}",
+                                 other.dump(), value.dump()));
+  }
+}
+
+void write_results(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings,
+                   const FinishedRuns& finished) {
+  const std::vector<CaseId> all = cases(dataset.recipe);
+  const auto count = std::ranges::count_if(all, [&](const CaseId& id) { return finished.has(id, settings); });
+  std::string results;
+  std::string times;
+  for_each_run(all, settings, [&](const RunId& run) {
+    if (const auto found = finished.results.find(run); found != finished.results.end())
+      results += found->second.json + '\n';
+    if (const auto found = finished.times.find(run); found != finished.times.end())
+      times += found->second + '\n';
+  });
+  write_file(directory / "generation.jsonl", times_text(dataset.finished, all));
+  write_file(times_of(directory), times);
+  write_file(results_of(directory), results);
+  write_file(experiment_of(directory),
+             experiment_text(experiment_json(dataset, settings), static_cast<std::size_t>(count)));
+  fs::remove(journal_of(directory));
+}
+
+std::vector<RunResult> read_results(const fs::path& directory) {
+  const fs::path file = results_of(directory);
+  std::vector<RunResult> results;
+  for_each_whole_line(file, [&](const std::string& line, std::size_t number) {
+    results.push_back(run_result(line, file.string(), number));
+  });
+  return results;
+}
+
+}  // namespace tanglebin

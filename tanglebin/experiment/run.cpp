@@ -1,0 +1,77 @@
+#include "tanglebin/experiment/run.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/base/random.hpp"
+#include "tanglebin/score/score_clouds.hpp"
+
+namespace tanglebin {
+namespace {
+
+const TubeSpec& spec_of(const Recipe& recipe, const std::string& set) {
+  return std::ranges::find(recipe.sets, set, &SetRecipe::name)->spec;
+}
+
+KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
+  const TubeSpec& spec = spec_of(recipe, id.set);
+  double length = 0;
+  for (const Segment& segment : spec.segments) length += segment.length;
+  return {.bin = recipe.bin, .camera = recipe.camera, .radius = spec.radius, .length = length};
+}
+
+template <typename Value>
+std::vector<Value> picked(const std::vector<Value>& all, const std::vector<std::size_t>& indices) {
+  std::vector<Value> result;
+  result.reserve(indices.size());
+  for (const std::size_t i : indices) result.push_back(all[i]);
+  return result;
+}
+
+PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int32_t> labels) {
+  PointCloud cloud;
+  cloud.points = std::move(points);
+  cloud.labels = std::move(labels);
+  cloud.width = cloud.points.size();
+  return cloud;
+}
+
+}  // namespace
+
+Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run, std::uint64_t seed) {
+  const CaseId& id = run.scene;
+  constexpr int no_attempt = 0;  // of a scene's: these count from 1, so the model's seed is never one of them
+  return model_tubes(data.cloud, known_scene(dataset.recipe, id), run.method, run.ratio,
+                     attempt_seed(seed, id.set, id.tubes, id.number, no_attempt), data.cloud_file);
+}
+
+ModelScore score_model(const CaseData& data, const Model& model) {
+  const std::vector<std::int32_t> truth = picked(truth_labels(data.cloud, data.cloud_file), model.filtered);
+  if (std::ranges::none_of(truth, [](std::int32_t label) { return label > bin_label; })) {
+    throw InputError({data.cloud_file, 0, ""}, "no point of a tube among those that the method's filter left",
+                     "at least one");
+  }
+  return {score(truth, picked(model.labels, model.filtered)), score_tubes(data.tubes, model.tubes)};
+}
+
+ComparedClouds compared_clouds(const CaseData& data, const Model& model) {
+  const Score labels_score = score_model(data, model).labels;
+  std::map<std::int32_t, std::int32_t> shown_as{{bin_label, bin_label}, {null_label, null_label}};
+  std::int32_t largest = bin_label;
+  for (const Tube& tube : data.tubes) largest = std::max(largest, tube.id);
+  for (const TubeScore& tube : labels_score.tubes) {
+    if (tube.assigned) shown_as[*tube.assigned] = tube.label;
+  }
+  for (const Tube& tube : model.tubes) {
+    if (!shown_as.contains(tube.id)) shown_as[tube.id] = ++largest;
+  }
+
+  const std::vector<Eigen::Vector3f> points = picked(data.cloud.points, model.filtered);
+  std::vector<std::int32_t> labels = picked(model.labels, model.filtered);
+  for (std::int32_t& label : labels) label = shown_as.at(label);
+  return {unorganized(points, picked(truth_labels(data.cloud, data.cloud_file), model.filtered)),
+          unorganized(points, std::move(labels))};
+}
+
+}  // namespace tanglebin

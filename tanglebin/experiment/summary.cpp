@@ -1,0 +1,44 @@
+#include "tanglebin/experiment/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace tanglebin {
+
+double ratio_to_show(const std::vector<double>& ratios) {
+  return std::ranges::min(ratios, {}, [](double ratio) {
+    // Of 0.2 and 0.4 neither is the nearer; their doubles' differences are not quite the same.
+    constexpr double billion = 1e9;
+    return std::llround(std::abs(ratio - figure_ratio) * billion);
+  });
+}
+
+std::vector<MeanMicroRecall> mean_micro_recalls(const std::vector<RunResult>& results, double ratio) {
+  std::vector<MeanMicroRecall> means;
+  for (const RunResult& result : results) {
+    if (result.run.ratio != ratio) continue;
+    const Method method = result.run.method;
+    const CaseId& id = result.run.scene;
+    auto mean = std::ranges::find_if(means, [&](const MeanMicroRecall& other) {
+      return other.method == method && other.set == id.set && other.tubes == id.tubes;
+    });
+    if (mean == means.end()) mean = means.insert(mean, {method, id.set, id.tubes, 0, 0.0});
+    ++mean->cases;
+    mean->mean += (result.micro_recall - mean->mean) / static_cast<double>(mean->cases);
+  }
+  return means;
+}
+
+std::vector<Example> examples(const std::vector<RunResult>& results, Method method, double ratio) {
+  std::vector<RunResult> runs;
+  std::ranges::copy_if(results, std::back_inserter(runs), [&](const RunResult& result) {
+    return result.run.method == method && result.run.ratio == ratio;
+  });
+  if (runs.empty()) return {};
+  std::ranges::stable_sort(runs, {}, &RunResult::micro_recall);
+  const auto best = std::ranges::lower_bound(runs, runs.back().micro_recall, {}, &RunResult::micro_recall);
+  return {{"best", *best}, {"median", runs[(runs.size() - 1) / 2]}, {"worst", runs.front()}};
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,170 @@
+// The head of the report, and its end: what was run, what came of it, and how to run it again.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tanglebin/report/html.hpp"
+#include "tanglebin/report/published_figures.hpp"
+#include "tanglebin/report/sections.hpp"
+#include "tanglebin/report/summary.hpp"
+#include "tanglebin/report/text.hpp"
+
+namespace tanglebin {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
+std::string ratios_text(const std::vector<double>& ratios) {
+  std::vector<std::string> words;
+  for (const double ratio : ratios) words.push_back(ratio_text(ratio));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+// ---- What was run
+// --------------------------------------------------------------------------------------------
+
+/// "Set A: 320 cases of 1 to 20 tubes"
+std::string set_text(const std::vector<RunScore>& scores, const std::string& set) {
+  const auto runs = chosen(scores, [&](const RunScore& score) { return score.run.id.set == set; });
+  const auto cases = distinct(runs, [](const RunScore& score) { return score.run.id; });
+  const auto tubes = distinct(runs, [](const RunScore& score) { return tubes_of(score); });
+  const std::string numbers = tubes.size() == 1 ? "" : fmt::format("{} to ", tubes.front());
+  return fmt::format("{} of set {} ({}{})", counted(cases.size(), "case"), set, numbers,
+                     counted(static_cast<std::size_t>(tubes.back()), "tube"));
+}
+
+std::string dataset_text(const Results& results) {
+  std::vector<std::string> sets;
+  for (const std::string& set :
+       distinct(results.scores, [](const RunScore& score) { return score.run.id.set; })) {
+    sets.push_back(set_text(results.scores, set));
+  }
+  return sets.empty() ? "no scored cases" : joined(sets);
+}
+
+std::string fact(const std::string& name, const std::string& value_html) {
+  return fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value_html);
+}
+
+std::string facts(const Results& results) {
+  const ExperimentRecord& experiment = results.experiment;
+  return "<dl>\n" +
+         fact("Dataset",
+              fmt::format("{}; seed {}", escaped(dataset_text(results)), experiment.dataset_seed)) +
+         fact("Recipe", fmt::format("SHA-256 <code>{}</code>", escaped(experiment.recipe_sha256))) +
+         fact("Methods", escaped(joined(experiment.methods))) +
+         fact("Downsampling ratios", ratios_text(experiment.ratios)) +
+         fact("Runs", fmt::format("{} scored; seed {}", results.scores.size(), experiment.seed)) +
+         fact("Version", "Tanglebin " + escaped(experiment.version)) + "</dl>\n";
+}
+
+// ---- What came of it
+// ----------------------------------------------------------------------------------------------
+
+/// "0.912 (set A) and 0.889 (set B)"
+std::string recalls_of(const std::vector<RunScore>& scores, const std::string& method) {
+  std::vector<std::string> words;
+  for (const RunGroup& group : groups_of(scores)) {
+    if (group.method != method) continue;
+    const auto runs = chosen(scores, [&](const RunScore& score) { return is_of(score, group); });
+    const double mean =
+        summarize(values(runs, [](const RunScore& score) { return score.micro_recall; })).mean;
+    words.push_back(fmt::format("{:.3f} (set {})", mean, group.set));
+  }
+  return joined(words);
+}
+
+/// " and models a case of set A with 10 tubes in 0.71 s on average (published: 0.85 s)"
+std::string time_of(const std::vector<RunTime>& all, const std::string& method, double ratio, int tubes) {
+  const auto here = chosen(all, [&](const RunTime& time) {
+    return time.run.method == method && time.run.ratio == ratio && tubes_of(time) == tubes;
+  });
+  if (here.empty()) return "";
+  const RunGroup group = groups_of(here).front();
+  const auto times = chosen(here, [&](const RunTime& time) { return is_of(time, group); });
+  const double mean = summarize(values(times, [](const RunTime& time) { return time.seconds; })).mean;
+  const std::optional<double> published = published_modelling_time(group.set, tubes, ratio);
+  return fmt::format(" and models a case of set {} with {} in {} s on average{}", group.set,
+                     counted(static_cast<std::size_t>(tubes), "tube"), seconds_text(mean),
+                     published ? fmt::format(" (published: {} s)", seconds_text(published)) : "");
+}
+
+/// A sentence a method.
+std::string headline(const Results& results) {
+  if (results.scores.empty()) return "There are no scores yet.";
+  const double ratio = shown_ratio(results.scores);
+  const auto scores = chosen(results.scores, [&](const RunScore& score) { return score.run.ratio == ratio; });
+  std::vector<std::string> sentences;
+  for (const std::string& method : results.experiment.methods) {
+    const std::string recalls = recalls_of(scores, method);
+    if (recalls.empty()) continue;
+    sentences.push_back(
+        fmt::format("At downsampling ratio {}, method “{}” labels a mean share of {} of the points right "
+                    "(micro-recall){}.",
+                    ratio_text(ratio), method, recalls,
+                    time_of(results.times, method, ratio, shown_tubes(results.scores))));
+  }
+  return fmt::format("{}", fmt::join(sentences, " "));
+}
+
+// ---- How to run it again
+// -------------------------------------------------------------------------------------
+
+std::string commands(const Results& results) {
+  const ExperimentRecord& experiment = results.experiment;
+  std::string methods;
+  for (const std::string& method : experiment.methods) methods += " --method " + method;
+  return fmt::format(
+      "tanglebin generate recipe.toml --out dataset\n"
+      "tanglebin experiment dataset --out results{} --downsample {} --seed {}\n"
+      "tanglebin report results --out report.html\n",
+      methods, fmt::join(experiment.ratios, ","), experiment.seed);
+}
+
+/// Which cases were chosen is not recorded but by the results themselves.
+std::string note_on_chosen_cases(const Results& results) {
+  if (results.generation.size() <= results.experiment.cases) return "";
+  return paragraph("note",
+                   fmt::format("These results are of {} of the dataset's {} cases; <code>--set</code>, "
+                               "<code>--tubes</code> and <code>--cases</code> of "
+                               "<code>experiment</code> choose them.",
+                               results.experiment.cases, results.generation.size()));
+}
+
+}  // namespace
+
+std::string overview(const Results& results) {
+  std::string html =
+      "<header>\n<p class=\"kicker\">Tanglebin report</p>\n<h1>Modelling entangled tubes in simulated "
+      "bins</h1>\n";
+  if (results.unfinished) {
+    html += paragraph(
+        "warning",
+        "This experiment is not finished: a run was cut off or is under way, and what it has done since "
+        "is not on this page. The same command goes on where it stopped.");
+  }
+  html += paragraph("lead", escaped(headline(results)));
+  return html + facts(results) + "</header>\n";
+}
+
+std::string how_to_repeat(const Results& results) {
+  return section_html(
+      "repeat", "How to make this page again",
+      fmt::format("<pre tabindex=\"0\"><code>{}</code></pre>\n", escaped(commands(results))) +
+          note_on_chosen_cases(results) +
+          paragraph(
+              "note",
+              fmt::format(
+                  "<code>recipe.toml</code> is the recipe that the dataset was made from: the dataset has "
+                  "it, with every value written down. With Tanglebin {} the same recipe gives the same "
+                  "scores, number for number. Times differ from machine to machine.",
+                  escaped(results.experiment.version))));
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,56 @@
+#include "tanglebin/report/page.hpp"
+
+#include <fmt/format.h>
+
+#include "tanglebin/report/html.hpp"
+#include "tanglebin/report/page_style.hpp"
+#include "tanglebin/report/plot.hpp"
+#include "tanglebin/report/sections.hpp"
+
+namespace tanglebin {
+namespace {
+
+constexpr const char* contents = R"html(<nav aria-label="Contents">
+<ul>
+<li><a href="#table-1">Generation time</a></li>
+<li><a href="#table-2">Modelling time</a></li>
+<li><a href="#figure-8">Micro-recall by number of tubes</a></li>
+<li><a href="#figure-9">Micro-recall by ratio</a></li>
+<li><a href="#measures">Other measures</a></li>
+<li><a href="#pictures">Pictures</a></li>
+<li><a href="#repeat">How to make this page again</a></li>
+</ul>
+</nav>
+)html";
+
+constexpr const char* citation = R"html(<footer>
+<p>The paper: G. Leão, C. M. Costa, A. Sousa, L. P. Reis, G. Veiga: <cite>Using Simulation to Evaluate a Tube Perception
+Algorithm for Bin Picking.</cite> Robotics 11(2), 46, 2022.
+<a href="https://doi.org/10.3390/robotics11020046">doi:10.3390/robotics11020046</a>. Numbers called published are from
+its Tables 1 and 2 and the text of its Section 6.2; sets are matched with the paper's by their names, A and B.</p>
+</footer>
+)html";
+
+std::string document(const std::string& body_html) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n"
+      "<title>Tanglebin report</title>\n<style>{}{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
+      page_style, plot_style, body_html);
+}
+
+}  // namespace
+
+std::string report_page(const Results& results) {
+  return document(overview(results) + contents + "<main>\n" +  //
+                  generation_times(results) +                  // Table 1
+                  modelling_times(results) +                   // Table 2
+                  recall_by_tubes(results) +                   // Figure 8
+                  recall_by_ratio(results) +                   // Figure 9
+                  other_measures(results) +                    //
+                  example_pictures(results) +                  //
+                  how_to_repeat(results) + "</main>\n" + citation);
+}
+
+}  // namespace tanglebin

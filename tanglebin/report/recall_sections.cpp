@@ -1,0 +1,220 @@
+// Figures 8 and 9: micro-recall.
+#include <fmt/format.h>
+
+#include "tanglebin/report/html.hpp"
+#include "tanglebin/report/plot.hpp"
+#include "tanglebin/report/published_figures.hpp"
+#include "tanglebin/report/sections.hpp"
+#include "tanglebin/report/summary.hpp"
+#include "tanglebin/report/text.hpp"
+
+namespace tanglebin {
+namespace {
+
+/// Micro-recall at one place of the horizontal axis.
+struct RecallPoint {
+  double x;
+  Summary recall;
+  std::optional<double> published;
+};
+
+/// A line of a figure.
+struct RecallLine {
+  std::string name;
+  std::vector<RecallPoint> points;
+};
+
+/// What the horizontal axis counts.
+struct Axis {
+  std::string label;
+  double (*x)(const RunScore&);
+  std::optional<double> (*published)(const std::string& set, double x);
+};
+
+const Axis tubes_axis = {
+    .label = "Tubes",
+    .x = [](const RunScore& score) { return static_cast<double>(tubes_of(score)); },
+    .published = [](const std::string& set,
+                    double x) { return published_micro_recall(set, static_cast<int>(x)); }};
+
+const Axis ratio_axis = {.label = "Ratio",
+                         .x = [](const RunScore& score) { return score.run.ratio; },
+                         .published = [](const std::string&, double) { return std::optional<double>(); }};
+
+RecallLine line_of(const std::vector<RunScore>& scores, const RunGroup& group, const Axis& axis,
+                   const std::string& name) {
+  const auto runs = chosen(scores, [&](const RunScore& score) { return is_of(score, group); });
+  RecallLine line{.name = name, .points = {}};
+  for (const double x : distinct(runs, axis.x)) {
+    const auto here = chosen(runs, [&](const RunScore& score) { return axis.x(score) == x; });
+    const auto recall = values(here, [](const RunScore& score) { return score.micro_recall; });
+    line.points.push_back({.x = x, .recall = summarize(recall), .published = axis.published(group.set, x)});
+  }
+  return line;
+}
+
+std::vector<RecallLine> lines_of(const Results& results, const std::vector<RunScore>& scores,
+                                 const Axis& axis) {
+  std::vector<RecallLine> lines;
+  for (const RunGroup& group : groups_of(scores)) {
+    lines.push_back(line_of(scores, group, axis, group_text(group, results)));
+  }
+  return lines;
+}
+
+bool has_published(const RecallLine& line) {
+  return std::ranges::any_of(line.points,
+                             [](const RecallPoint& point) { return point.published.has_value(); });
+}
+
+// ---- Plot
+// ----------------------------------------------------------------------------------------------------
+
+PlotSeries measured_series(const RecallLine& line) {
+  PlotSeries series{.name = line.name, .points = {}};
+  for (const auto& [x, recall, published] : line.points) {
+    series.points.push_back(
+        {.x = x, .y = recall.mean, .low = recall.first_quartile, .high = recall.third_quartile});
+  }
+  return series;
+}
+
+/// The paper's numbers, once for all methods.
+std::vector<PlotSeries> published_series(const std::vector<RunScore>& scores, const Axis& axis) {
+  std::vector<PlotSeries> result;
+  for (const std::string& set : distinct(scores, [](const RunScore& score) { return score.run.id.set; })) {
+    PlotSeries series{.name = fmt::format("Set {}, published", set), .points = {}, .is_published = true};
+    const auto of_set = chosen(scores, [&](const RunScore& score) { return score.run.id.set == set; });
+    for (const double x : distinct(of_set, axis.x)) {
+      if (const auto y = axis.published(set, x))
+        series.points.push_back({.x = x, .y = *y, .low = *y, .high = *y});
+    }
+    if (!series.points.empty()) result.push_back(series);
+  }
+  return result;
+}
+
+/// "Set A falls from 0.95 at 1 to 0.87 at 20": what a line says, for those who cannot see it.
+std::string in_words(const RecallLine& line) {
+  const RecallPoint& first = line.points.front();
+  const RecallPoint& last = line.points.back();
+  return fmt::format("{}: {:.3f} at {:g}, {:.3f} at {:g}", line.name, first.recall.mean, first.x,
+                     last.recall.mean, last.x);
+}
+
+std::string plot_of(const std::vector<RunScore>& scores, const std::vector<RecallLine>& lines,
+                    const Axis& axis, const std::string& id, const std::string& x_label) {
+  Plot plot{.id = id,
+            .text = "Mean micro-recall by " + x_label + ".",
+            .x_label = x_label,
+            .y_label = "micro-recall",
+            .y_greatest = 1,
+            .series = {}};
+  for (const RecallLine& line : lines) {
+    plot.text += " " + in_words(line) + ".";
+    plot.series.push_back(measured_series(line));
+  }
+  for (const PlotSeries& series : published_series(scores, axis)) plot.series.push_back(series);
+  return svg(plot);
+}
+
+// ---- Tables
+// --------------------------------------------------------------------------------------------------
+
+HtmlTable table_of(const RecallLine& line, const Axis& axis, const std::string& figure) {
+  HtmlTable table{
+      .caption_html = fmt::format("<b>{}, {}.</b> Micro-recall of its cases.", figure, escaped(line.name)),
+      .columns = {{.heading = axis.label, .group = ""}},
+      .rows = {}};
+  for (const char* heading : {"n", "mean", "SD", "min", "Q1", "median", "Q3", "max"}) {
+    table.columns.push_back({.heading = heading, .group = ""});
+  }
+  if (has_published(line)) {
+    table.columns.push_back({.heading = "published", .group = "", .is_published = true});
+  }
+  for (const auto& [x, recall, published] : line.points) {
+    table.rows.push_back({ratio_text(x), std::to_string(recall.count), share_text(recall.mean),
+                          share_text(recall.standard_deviation), share_text(recall.least),
+                          share_text(recall.first_quartile), share_text(recall.median),
+                          share_text(recall.third_quartile), share_text(recall.greatest)});
+    if (has_published(line)) table.rows.back().push_back(published ? "≈ " + share_text(published) : "–");
+  }
+  return table;
+}
+
+std::string tables_of(const std::vector<RecallLine>& lines, const Axis& axis, const std::string& figure) {
+  std::string content = "<div class=\"side-by-side\">\n";
+  for (const RecallLine& line : lines) content += html(table_of(line, axis, figure));
+  return content + "</div>\n";
+}
+
+// ---- Words
+// ---------------------------------------------------------------------------------------------------
+
+constexpr const char* reading_aid =
+    "Points: means. Bars: from the first to the third quartile, the middle half of the cases. The vertical "
+    "axis "
+    "need not begin at 0.";
+
+constexpr const char* no_scores =
+    "The results have no scores (<code>results.jsonl</code>), so that there is nothing to plot.";
+
+std::string plot_figure(const std::string& plot, const std::string& caption_html) {
+  return fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", plot, caption_html);
+}
+
+std::string figure_8_note(const std::vector<RecallLine>& lines) {
+  if (std::ranges::none_of(lines, has_published)) return {};
+  return paragraph(
+      "note",
+      "Published: stated in the paper's text for set B at ratio 0.3, as approximations: 0.867 for one tube, "
+      "3.9 % more "
+      "for two and 4.1 % less than for one for ten. The paper prints no other number of its Figure 8.");
+}
+
+}  // namespace
+
+std::string recall_by_tubes(const Results& results) {
+  constexpr const char* heading = "Micro-recall by number of tubes";
+  if (results.scores.empty()) return section_html("figure-8", heading, paragraph("missing", no_scores));
+  const double ratio = shown_ratio(results.scores);
+  const auto scores = chosen(results.scores, [&](const RunScore& score) { return score.run.ratio == ratio; });
+  const auto lines = lines_of(results, scores, tubes_axis);
+  std::string content;
+  if (std::abs(ratio - figure_8_ratio) > 1e-9) {
+    content += paragraph("note",
+                         fmt::format("The ratio of the paper's Figure 8, {}, was not run; {} is the nearest.",
+                                     figure_8_ratio, ratio_text(ratio)));
+  }
+  content += plot_figure(
+      plot_of(scores, lines, tubes_axis, "plot_8", "number of tubes"),
+      fmt::format("<b>Figure 8.</b> Micro-recall by number of tubes at downsampling ratio {}. {}{}",
+                  ratio_text(ratio), reading_aid,
+                  std::ranges::any_of(lines, has_published) ? " Diamonds: stated in the paper's text." : ""));
+  return section_html("figure-8", heading,
+                      content + figure_8_note(lines) + tables_of(lines, tubes_axis, "Figure 8"));
+}
+
+std::string recall_by_ratio(const Results& results) {
+  constexpr const char* heading = "Micro-recall by downsampling ratio";
+  if (results.scores.empty()) return section_html("figure-9", heading, paragraph("missing", no_scores));
+  const int tubes = shown_tubes(results.scores);
+  const auto scores = chosen(results.scores, [&](const RunScore& score) { return tubes_of(score) == tubes; });
+  const auto lines = lines_of(results, scores, ratio_axis);
+  std::string content;
+  if (tubes != figure_9_tubes) {
+    content += paragraph(
+        "note", fmt::format("The number of tubes of the paper's Figure 9, {}, was not run; {} is the "
+                            "nearest.",
+                            figure_9_tubes, tubes));
+  }
+  content += plot_figure(
+      plot_of(scores, lines, ratio_axis, "plot_9", "downsampling ratio"),
+      fmt::format(
+          "<b>Figure 9.</b> Micro-recall by downsampling ratio in bins with {}. {} The paper prints no "
+          "number of its Figure 9.",
+          counted(static_cast<std::size_t>(tubes), "tube"), reading_aid));
+  return section_html("figure-9", heading, content + tables_of(lines, ratio_axis, "Figure 9"));
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tanglebin/report/published_figures.hpp"
+#include "tanglebin/report/results.hpp"
+
+// Which results a table or a plot shows.
+namespace tanglebin {
+
+/// The runs of a method on a set: what a line of a plot shows.
+struct RunGroup {
+  std::string set;
+  std::string method;
+};
+
+/// key(record) of every record, each once, ascending.
+template <typename Record, typename Key>
+auto distinct(const std::vector<Record>& records, const Key& key) {
+  std::vector<std::decay_t<decltype(key(records.front()))>> values;
+  for (const Record& record : records) values.push_back(key(record));
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+/// Those records for which `is_wanted` holds.
+template <typename Record, typename IsWanted>
+std::vector<Record> chosen(const std::vector<Record>& records, const IsWanted& is_wanted) {
+  std::vector<Record> result;
+  std::ranges::copy_if(records, std::back_inserter(result), is_wanted);
+  return result;
+}
+
+/// value(record) of every record.
+template <typename Record, typename Value>
+std::vector<double> values(const std::vector<Record>& records, const Value& value) {
+  std::vector<double> result;
+  for (const Record& record : records) result.push_back(value(record));
+  return result;
+}
+
+inline int tubes_of(const RunScore& score) {
+  return score.run.id.tubes;
+}
+inline int tubes_of(const RunTime& time) {
+  return time.run.id.tubes;
+}
+inline int tubes_of(const TimesRecord& times) {
+  return times.id.tubes;
+}
+
+/// The group of a RunScore or RunTime.
+template <typename Record>
+bool is_of(const Record& record, const RunGroup& group) {
+  return record.run.id.set == group.set && record.run.method == group.method;
+}
+
+/// Every group there are records of, in their order.
+template <typename Record>
+std::vector<RunGroup> groups_of(const std::vector<Record>& records) {
+  std::vector<RunGroup> groups;
+  for (const Record& record : records) {
+    const auto is_its_group = [&](const RunGroup& group) { return is_of(record, group); };
+    if (std::ranges::none_of(groups, is_its_group)) groups.push_back({record.run.id.set, record.run.method});
+  }
+  return groups;
+}
+
+/// The one of some values, at least one, that is nearest to `wanted`; the smaller of two that are as near.
+template <typename Value>
+Value nearest(const std::vector<Value>& ascending, Value wanted) {
+  const auto distance = [&](Value value) { return std::abs(static_cast<double>(value - wanted)); };
+  return *std::ranges::min_element(ascending, {}, distance);
+}
+
+/// The ratio that Figure 8 and the other measures are shown at, of the scores, which are not empty.
+inline double shown_ratio(const std::vector<RunScore>& scores) {
+  return nearest(distinct(scores, [](const RunScore& score) { return score.run.ratio; }), figure_8_ratio);
+}
+
+/// The number of tubes that Figure 9 is shown for.
+inline int shown_tubes(const std::vector<RunScore>& scores) {
+  return nearest(distinct(scores, [](const RunScore& score) { return tubes_of(score); }), figure_9_tubes);
+}
+
+}  // namespace tanglebin

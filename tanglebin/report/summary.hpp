@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace tanglebin {
+
+/// What a sample of numbers comes to.
+struct Summary {
+  std::size_t count = 0;
+  double mean = 0;
+  std::optional<double> standard_deviation;  ///< of the population, estimated: n − 1; none of a single number
+  double least = 0;
+  double first_quartile = 0;  ///< quartiles interpolate between neighbours (Hyndman and Fan 1996, type 7)
+  double median = 0;
+  double third_quartile = 0;
+  double greatest = 0;
+};
+
+/// Throws std::invalid_argument for an empty sample.
+Summary summarize(std::vector<double> sample);
+
+}  // namespace tanglebin

@@ -1,0 +1,129 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "../support/program.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::bytes_of;
+using test::ProgramResult;
+using test::run_program;
+using test::TemporaryDirectory;
+using test::write_bytes;
+using testing::HasSubstr;
+
+constexpr const char* recipe = R"(
+seed = 3
+[scanner]
+width = 240
+height = 150
+[[set]]
+name = "A"
+tubes = [1, 2]
+cases = 2
+[set.tube]
+radius = 0.0125
+mass = 0.5
+length = 0.5
+bend_max_deg = 30
+)";
+
+class ExperimentCommand : public testing::Test {
+protected:
+  ExperimentCommand() { run_program("generate - --out " + path("dataset"), recipe); }
+
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  ProgramResult experiment(const std::string& options, const std::string& out = "results") const {
+    return run_program("experiment " + path("dataset") + " --out " + path(out) + " " + options);
+  }
+
+  std::string ratios_of(const std::string& out) const {
+    return nlohmann::json::parse(bytes_of(path(out) + "/experiment.json")).at("ratios").dump();
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(ExperimentCommand, ModelsEveryCaseAndPrintsTheMeansByMethodAndSet) {
+  const ProgramResult run = experiment("--downsample 0.3,1");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");  // no progress where standard error is no terminal
+  EXPECT_THAT(run.out, HasSubstr("mean micro-recall at ratio 0.3\n"));
+  EXPECT_THAT(run.out, testing::ContainsRegex(
+                           "paper, set A: [01]\\.[0-9]+ \\(1 tube\\), [01]\\.[0-9]+ \\(2 tubes\\)\n"));
+  EXPECT_THAT(run.out, HasSubstr("results: 4 cases modelled in "));
+  for (const char* file : {"experiment.json", "results.jsonl", "times.jsonl", "generation.jsonl",
+                           "pictures.jsonl", "pictures/paper-worst-labels.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(path("results/") + file)) << file;
+  }
+}
+
+TEST_F(ExperimentCommand, ModelsOnlyTheCasesAskedForAndGoesOnLater) {
+  const auto first = nlohmann::json::parse(experiment("--downsample 0.5 --tubes 2 --cases 2 --json").out);
+  EXPECT_EQ(first.at("made"), 1);
+  EXPECT_EQ(first.at("complete"), true);
+  EXPECT_EQ(first.at("ratio"), 0.5);
+  EXPECT_EQ(first.at("micro_recall").at(0).at("tubes"), 2);
+  const auto second = nlohmann::json::parse(experiment("--downsample 0.5 --json").out);
+  EXPECT_EQ(second.at("found"), 1);
+  EXPECT_EQ(second.at("made"), 3);
+  EXPECT_EQ(second.at("micro_recall").at(1).at("cases"), 2);
+}
+
+TEST_F(ExperimentCommand, TakesRatiosAsAListOrARange) {
+  experiment("--cases 1 --tubes 1 --downsample 1,0.3,0.25", "list");
+  EXPECT_EQ(ratios_of("list"), "[0.25,0.3,1.0]");
+  experiment("--cases 1 --tubes 1", "default");
+  EXPECT_EQ(ratios_of("default"), "[0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8,0.9,1.0]");
+  experiment("--cases 1 --tubes 1 --downsample 0.05:0.15:0.05", "range");
+  EXPECT_EQ(ratios_of("range"), "[0.05,0.1,0.15]");
+}
+
+TEST_F(ExperimentCommand, BadInputIsExitStatusTwoAndOneLine) {
+  const auto expect_error = [&](const ProgramResult& run, const std::string& message) {
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.err, HasSubstr(message));
+    EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
+    EXPECT_EQ(run.out, "");
+  };
+  for (const std::string ratio :
+       {"0", "1.1", "-0.1", "nan", "some", "0.1,", "", "0.1:2:0.1", "0.1:1:0", "0.12345678901"}) {
+    expect_error(experiment("--downsample '" + ratio + "'"), "--downsample: found \"");
+  }
+  expect_error(experiment("--downsample 0.1:1"), "first:last:step");
+  expect_error(experiment("--downsample 0.1:1:0.2"), "a step that leads from the first to the last");
+  expect_error(experiment("--downsample 1:0.1:0.1"), "a step that leads from the first to the last");
+  expect_error(experiment("--downsample 0.3,0.30"), "each ratio once");
+  expect_error(experiment("--downsample 0.000000001:1:0.000000001"), "at most a thousand ratios");
+  expect_error(experiment("--method none"), "none");
+  expect_error(experiment("--set C"), "dataset: no case has this --set, --tubes and --cases");
+  expect_error(run_program("experiment " + path("") + " --out " + path("r")),
+               "recipe.toml: cannot be opened");
+  EXPECT_FALSE(std::filesystem::exists(path("results")));
+
+  EXPECT_EQ(experiment("--downsample 0.3 --cases 1").status, 0);
+  expect_error(experiment("--downsample 0.4"), "another experiment: it has [0.3], this one [0.4]");
+  write_bytes(path("dataset/A2/plys/2.ply"), "");
+  expect_error(experiment("--downsample 0.3"), "A2/plys/2.ply: sha256: found ");
+}
+
+TEST_F(ExperimentCommand, WrongUsageIsExitStatus64) {
+  EXPECT_EQ(run_program("experiment").status, 64);
+  EXPECT_EQ(run_program("experiment " + path("dataset")).status, 64);
+  EXPECT_EQ(experiment("--jobs 0").status, 64);
+}
+
+TEST_F(ExperimentCommand, HelpHasAnExample) {
+  const ProgramResult run = run_program("experiment --help");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, HasSubstr("tanglebin experiment dataset --out results"));
+}
+
+}  // namespace
+}  // namespace tanglebin

@@ -1,0 +1,244 @@
+#include "tanglebin/experiment/run_experiment.hpp"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "small_dataset.hpp"
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/experiment/results.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::bytes_of;
+using test::files_below;
+using test::SmallDataset;
+using test::TemporaryDirectory;
+using test::write_bytes;
+using testing::HasSubstr;
+
+constexpr auto no_progress = [](std::size_t) {};
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+class RunExperiment : public testing::Test {
+protected:
+  ExperimentSummary run(const TemporaryDirectory& results, int jobs = 1) const {
+    return run(results, cases(dataset_.read()), jobs);
+  }
+  ExperimentSummary run(const TemporaryDirectory& results, const std::vector<CaseId>& wanted,
+                        int jobs = 1) const {
+    return run_experiment(dataset_.read(), settings_, wanted, results.path(), jobs, no_progress);
+  }
+
+  // Everything but how long it took.
+  static std::map<std::string, std::string> results_in(const TemporaryDirectory& directory) {
+    auto files = files_below(directory.path());
+    files.erase("times.jsonl");
+    return files;
+  }
+
+  SmallDataset dataset_;
+  ExperimentSettings settings_{.methods = methods(), .ratios = {0.6, 1}, .seed = 5};
+};
+
+TEST_F(RunExperiment, LeavesALineForEachRunInTheOrderOfMethodCaseAndRatio) {
+  const TemporaryDirectory results;
+  const ExperimentSummary summary = run(results, 2);
+  EXPECT_TRUE(summary.complete());
+  EXPECT_EQ(summary.made, 6U);
+
+  const auto lines = lines_of(bytes_of(results / "results.jsonl"));
+  const auto times = lines_of(bytes_of(results / "times.jsonl"));
+  ASSERT_EQ(lines.size(), settings_.methods.size() * 6 * 2);
+  ASSERT_EQ(times.size(), lines.size());
+  std::size_t line = 0;
+  for (const Method method : settings_.methods) {
+    for (const CaseId& id : cases(dataset_.read())) {
+      for (const double ratio : settings_.ratios) {
+        for (const auto& text : {lines[line], times[line]}) {
+          const auto json = nlohmann::json::parse(text);
+          EXPECT_EQ(json.at("method"), name_of(method));
+          EXPECT_EQ(json.at("set"), id.set);
+          EXPECT_EQ(json.at("tubes"), id.tubes);
+          EXPECT_EQ(json.at("case"), id.number);
+          EXPECT_EQ(json.at("ratio").get<double>(), ratio);
+        }
+        ++line;
+      }
+    }
+  }
+}
+
+TEST_F(RunExperiment, ALineHasWhatModellingAndScoringTheCaseGive) {
+  const TemporaryDirectory results;
+  run(results, {{"A", 3, 2}});
+  const Dataset dataset = dataset_.read();
+  const RunId id{Method::paper, {"A", 3, 2}, 0.6};
+  const CaseData data = read_case(dataset, id.scene);
+  const Model model = model_case(dataset, data, id, settings_.seed);
+  EXPECT_EQ(lines_of(bytes_of(results / "results.jsonl")).at(0),
+            result_json(id, model, score_model(data, model)));
+}
+
+TEST_F(RunExperiment, SaysWhatTheResultsFollowFromAndHowLongTheDatasetTook) {
+  const TemporaryDirectory results;
+  run(results, {{"A", 1, 1}});
+  const auto json = nlohmann::json::parse(bytes_of(results / "experiment.json"));
+  EXPECT_EQ(json.at("dataset_seed"), 7);
+  EXPECT_EQ(json.at("methods").size(), methods().size());
+  EXPECT_EQ(json.at("ratios"), (std::vector<double>{0.6, 1}));
+  EXPECT_EQ(json.at("seed"), 5);
+  EXPECT_EQ(json.at("cases"), 1);
+  EXPECT_EQ(json.at("recipe_sha256"), sha256(bytes_of(dataset_ / "recipe.toml")));
+  EXPECT_EQ(bytes_of(results / "generation.jsonl"), bytes_of(dataset_ / "times.jsonl"));
+  EXPECT_FALSE(std::filesystem::exists(results / "journal.jsonl"));
+}
+
+TEST_F(RunExperiment, OneJobOrTwoGiveTheSameBytes) {
+  const TemporaryDirectory one;
+  const TemporaryDirectory two;
+  run(one, 1);
+  run(two, 2);
+  EXPECT_EQ(results_in(one), results_in(two));
+}
+
+TEST_F(RunExperiment, ACasesResultsDoNotDependOnTheOtherCasesAndMoreMayBeAdded) {
+  const TemporaryDirectory whole;
+  const TemporaryDirectory parts;
+  run(whole);
+  EXPECT_EQ(run(parts, {{"A", 3, 2}, {"A", 1, 3}}).made, 2U);
+  const ExperimentSummary rest = run(parts);
+  EXPECT_EQ(rest.found, 2U);
+  EXPECT_EQ(rest.made, 4U);
+  EXPECT_EQ(results_in(parts), results_in(whole));
+  EXPECT_EQ(run(parts).made, 0U);
+}
+
+TEST_F(RunExperiment, TakesUpTheJournalOfARunThatWasCutOff) {
+  const TemporaryDirectory whole;
+  const TemporaryDirectory cut;
+  run(whole);
+  run(cut, {{"A", 1, 1}});
+
+  // As after a power cut: one case is in the results, one in the journal, and the line of a third is torn.
+  const auto results = lines_of(bytes_of(whole / "results.jsonl"));
+  const auto times = lines_of(bytes_of(whole / "times.jsonl"));
+  std::map<int, std::string> journal;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const auto run = nlohmann::json::parse(results[i]);
+    if (run.at("tubes") != 3) continue;
+    std::string& line = journal[run.at("case").get<int>()];
+    if (!line.empty()) line += '\t';
+    line += results[i] + '\t' + times[i];
+  }
+  const std::string torn = journal.at(2).substr(0, journal.at(2).size() - 20);
+  write_bytes(cut / "journal.jsonl", journal.at(1) + '\n' + torn);
+
+  const ExperimentSummary summary = run(cut);
+  EXPECT_EQ(summary.found, 2U);
+  EXPECT_EQ(summary.made, 4U);
+  EXPECT_EQ(results_in(cut), results_in(whole));
+}
+
+TEST_F(RunExperiment, AnInterruptedRunGoesOnLater) {
+  const TemporaryDirectory whole;
+  const TemporaryDirectory parts;
+  run(whole);
+  const ExperimentSummary first = run_experiment(dataset_.read(), settings_, cases(dataset_.read()),
+                                                 parts.path(), 1, [](std::size_t) { raise(SIGINT); });
+  EXPECT_EQ(first.found, 0U);
+  EXPECT_EQ(lines_of(bytes_of(parts / "results.jsonl")).size(), first.made * settings_.methods.size() * 2);
+  EXPECT_FALSE(std::filesystem::exists(parts / "journal.jsonl"));
+  EXPECT_EQ(run(parts).found, first.made);
+  EXPECT_EQ(results_in(parts), results_in(whole));
+}
+
+TEST_F(RunExperiment, AnotherExperimentIsNotLetIn) {
+  const TemporaryDirectory results;
+  run(results, {{"A", 1, 1}});
+  const auto before = files_below(results.path());
+  const auto expect_refused = [&](const std::string& difference) {
+    EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("experiment.json: " + difference));
+    EXPECT_EQ(files_below(results.path()), before);
+  };
+  settings_.seed = 6;
+  expect_refused("seed: the directory belongs to another experiment: it has 5, this one 6");
+  settings_.seed = 5;
+  settings_.ratios = {0.6};
+  expect_refused("ratios: the directory belongs to another experiment: it has [0.6,1.0], this one [0.6]");
+  settings_.ratios = {0.6, 1};
+  settings_.methods.clear();
+  expect_refused("methods: the directory belongs to another experiment: ");
+  settings_.methods = methods();
+  write_bytes(dataset_ / "recipe.toml", bytes_of(dataset_ / "recipe.toml") + "# the same cases\n");
+  expect_refused("recipe_sha256: the directory belongs to another experiment: ");
+}
+
+TEST_F(RunExperiment, ADatasetIsNotWrittenInto) {
+  const auto before = files_below(dataset_ / "");
+  const Dataset dataset = dataset_.read();
+  EXPECT_THAT(error_of([&] {
+                run_experiment(dataset, settings_, cases(dataset), dataset.directory, 1, no_progress);
+              }),
+              HasSubstr("found a dataset, expected a directory for results"));
+  EXPECT_EQ(files_below(dataset_ / ""), before);
+}
+
+TEST_F(RunExperiment, OneRunAtATime) {
+  const TemporaryDirectory results;
+  const int other = open(results.path().c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("another run is writing here"));
+  close(other);
+}
+
+TEST_F(RunExperiment, AMissingCloudIsAnErrorThatNamesItAndLosesNoFinishedCase) {
+  const TemporaryDirectory whole;
+  const TemporaryDirectory results;
+  run(whole);
+  const std::string cloud = bytes_of(dataset_ / "A1/plys/3.ply");
+  std::filesystem::remove(dataset_ / "A1/plys/3.ply");
+  EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("A1/plys/3.ply: cannot be opened"));
+  write_bytes(dataset_ / "A1/plys/3.ply", cloud);
+  EXPECT_EQ(run(results).found, 2U);
+  EXPECT_EQ(results_in(results), results_in(whole));
+}
+
+TEST_F(RunExperiment, ACloudThatHasChangedIsAnErrorThatNamesIt) {
+  const TemporaryDirectory results;
+  std::string bytes = bytes_of(dataset_ / "A3/plys/1.ply");
+  bytes.back() ^= 1;
+  write_bytes(dataset_ / "A3/plys/1.ply", bytes);
+  EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("A3/plys/1.ply: sha256: found "));
+}
+
+}  // namespace
+}  // namespace tanglebin

@@ -1,0 +1,127 @@
+#include "tanglebin/experiment/run.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "small_dataset.hpp"
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/experiment/results.hpp"
+#include "tanglebin/score/score.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::SmallDataset;
+using test::TemporaryDirectory;
+using testing::HasSubstr;
+
+PointCloud cloud_of(const std::vector<std::int32_t>& labels) {
+  PointCloud cloud;
+  cloud.labels = labels;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    cloud.points.emplace_back(static_cast<float>(i) / 100, 0.0F, 0.0F);
+  }
+  cloud.width = labels.size();
+  return cloud;
+}
+
+std::vector<Tube> tubes(int count) {
+  std::vector<Tube> result(static_cast<std::size_t>(count));
+  for (int id = 1; id <= count; ++id) {
+    Tube& tube = result[static_cast<std::size_t>(id - 1)];
+    tube.id = id;
+    tube.radius = 0.0125;
+    const double y = 0.1 * id;
+    tube.nodes = {{1, {0, y, 0}}, {2, {0.5, y, 0}}};
+    const Eigen::Quaterniond along_x =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX());
+    tube.edges = {{0, 1, 1, {0.25, y, 0}, along_x, 0.5}};
+  }
+  return result;
+}
+
+TEST(ScoreModel, LooksAtThePointsThatTheFilterLeftAlone) {
+  const CaseData data{"1.ply", cloud_of({0, 1, 1, 1, 2, 2}), tubes(2)};
+  const Model model{.tubes = tubes(2), .labels = {1, 2, 2, -1, 1, -1}, .filtered = {0, 1, 2, 4}, .steps = {}};
+  const ModelScore score = score_model(data, model);
+  EXPECT_EQ(score.labels.points, 3);
+  EXPECT_EQ(score.labels.micro_recall, 1.0);
+}
+
+TEST(ScoreModel, ACloudOfWhichTheFilterLeavesNoTubeIsAnErrorThatNamesIt) {
+  const CaseData data{"1.ply", cloud_of({0, 1}), tubes(1)};
+  const Model model{.tubes = {}, .labels = {0, -1}, .filtered = {0}, .steps = {}};
+  try {
+    score_model(data, model);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "1.ply: found no point of a tube among those that the method's filter left, expected at least one");
+  }
+}
+
+TEST(ComparedClouds, GiveAnAssignedTubeTheTrueTubesLabelAndTheOthersNewOnes) {
+  const CaseData data{"1.ply", cloud_of({0, 1, 1, 1, 2, 2, 2, 2}), tubes(2)};
+  const Model model{
+      .tubes = tubes(4), .labels = {0, 2, 2, 4, 3, 3, -1, 1}, .filtered = {0, 1, 2, 3, 4, 5, 6}, .steps = {}};
+  const ComparedClouds clouds = compared_clouds(data, model);
+  EXPECT_EQ(clouds.truth.labels, (std::vector<std::int32_t>{0, 1, 1, 1, 2, 2, 2}));
+  EXPECT_EQ(clouds.labels.labels, (std::vector<std::int32_t>{0, 1, 1, 4, 2, 2, -1}));
+  EXPECT_EQ(clouds.truth.points, clouds.labels.points);
+  EXPECT_EQ(clouds.truth.points.size(), 7U);
+}
+
+TEST(ResultJson, HasTheScoresOfTheModelComputedDirectly) {
+  const SmallDataset directory;
+  const Dataset dataset = directory.read();
+  const RunId run{Method::paper, {"A", 3, 1}, 1.0};
+  const CaseData data = read_case(dataset, run.scene);
+  const Model model = model_case(dataset, data, run, 5);
+
+  std::vector<std::int32_t> truth;
+  std::vector<std::int32_t> labels;
+  for (const std::size_t i : model.filtered) {
+    truth.push_back(data.cloud.labels[i]);
+    labels.push_back(model.labels[i]);
+  }
+  const Score expected = score(truth, labels);
+  const TubesScore expected_tubes = score_tubes(data.tubes, model.tubes);
+
+  const auto json = nlohmann::json::parse(result_json(run, model, score_model(data, model)));
+  EXPECT_GT(expected.micro_recall, 0);
+  EXPECT_EQ(json.at("points"), expected.points);
+  EXPECT_EQ(json.at("micro_recall").get<double>(), expected.micro_recall);
+  EXPECT_EQ(json.at("mean_iou").get<double>(), expected.mean_iou);
+  EXPECT_EQ(json.at("f1").get<double>(), expected.detection.f1);
+  EXPECT_EQ(json.at("panoptic_quality").get<double>(), expected.detection.panoptic_quality);
+  EXPECT_EQ(json.at("adjusted_rand_index").get<double>(), expected.adjusted_rand_index);
+  EXPECT_EQ(json.at("correct"), expected.instances.correct);
+  EXPECT_EQ(json.at("noise"), expected.instances.noise);
+  EXPECT_EQ(json.at("tubes_found"), model.tubes.size());
+  EXPECT_EQ(json.at("centre_line_error").is_null(), !expected_tubes.centre_line_error.has_value());
+  EXPECT_EQ(json.at("centre_line_coverage").get<double>(), expected_tubes.centre_line_coverage);
+  EXPECT_EQ(json.at("true_joins"), expected_tubes.true_joins);
+  EXPECT_EQ(json.at("counts").size(), model.steps.size());
+  const Step& first = model.steps.at(0);
+  EXPECT_EQ(json.at("counts").at(first.name), first.count);
+  EXPECT_EQ(nlohmann::json::parse(times_json(run, model, 1.5)).at("steps").at(first.name).get<double>(),
+            first.seconds);
+}
+
+TEST(ModelCase, ModelsTheSameAgainAndAnotherSeedAnother) {
+  const SmallDataset directory;
+  const Dataset dataset = directory.read();
+  const RunId run{Method::paper, {"A", 3, 1}, 0.8};
+  const CaseData data = read_case(dataset, run.scene);
+  const auto model = [&](std::uint64_t seed) { return model_case(dataset, data, run, seed); };
+  EXPECT_EQ(model(1).labels, model(1).labels);
+  EXPECT_NE(model(1).filtered, model(2).filtered);
+}
+
+}  // namespace
+}  // namespace tanglebin

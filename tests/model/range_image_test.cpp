@@ -1,0 +1,54 @@
+#include "tanglebin/model/range_image.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "scanned.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+
+// A camera 2 m above the origin whose pixels are 2 mm wide on the floor.
+Camera small_camera() {
+  return downward_camera(101, 101, 1000, {0, 0, 2});
+}
+
+PointCloud cloud_of(const std::vector<Eigen::Vector3f>& points) {
+  PointCloud cloud;
+  cloud.points = points;
+  cloud.width = points.size();
+  return cloud;
+}
+
+TEST(RangeImage, HidesAWayUnderWhatIsNearerThanItsFartherEnd) {
+  const RangeImage image(cloud_of({{0, 0, 0.5F}}), small_camera());
+  EXPECT_TRUE(image.hides({-0.03, 0, 0.1}, {0.03, 0, 0.1}, 2));
+  EXPECT_TRUE(image.hides({-0.03, 0, 0.7}, {0.03, 0, 0.4}, 2)) << "nearer than one of them is enough";
+  EXPECT_FALSE(image.hides({-0.03, 0, 0.7}, {0.03, 0, 0.7}, 2)) << "both ends are above it";
+}
+
+TEST(RangeImage, LooksOnlyAroundTheMiddle) {
+  const RangeImage image(cloud_of({{0, 0, 0.5F}}), small_camera());
+  // The middle's projection is 5 pixels from that of the point.
+  EXPECT_FALSE(image.hides({0.01, -0.02, 0}, {0.01, 0.02, 0}, 4));
+  EXPECT_TRUE(image.hides({0.01, -0.02, 0}, {0.01, 0.02, 0}, 5));
+}
+
+TEST(RangeImage, KeepsTheNearestOfSeveralPointsInAPixel) {
+  const RangeImage image(cloud_of({{0, 0, 0.1F}, {0, 0, 0.5F}, {0, 0, 0.2F}}), small_camera());
+  EXPECT_TRUE(image.hides({-0.01, 0, 0.4}, {0.01, 0, 0.4}, 1));
+}
+
+TEST(RangeImage, OfNothingHidesNothing) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const RangeImage image(cloud_of({{nan, nan, nan}, {0, 0, 5}, {90, 0, 0}}), small_camera());
+  EXPECT_FALSE(image.hides({-0.01, 0, 0.1}, {0.01, 0, 0.1}, 50));
+  EXPECT_FALSE(image.hides({-0.01, 0, 3}, {0.01, 0, 0.1}, 50)) << "an end behind the camera";
+  EXPECT_FALSE(image.hides({-9, 0, 0.1}, {-9, 0, 0.2}, 3)) << "a middle outside of the image";
+}
+
+}  // namespace
+}  // namespace tanglebin

@@ -1,0 +1,202 @@
+#include "tanglebin/report/page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "synthetic_results.hpp"
+
+namespace tanglebin {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+RunScore score(const RunKey& run, double micro_recall) {
+  return {.run = run,
+          .micro_recall = micro_recall,
+          .mean_iou = 0.5,
+          .f1 = 0.25,
+          .panoptic_quality = 0.125,
+          .adjusted_rand_index = 0.75,
+          .centre_line_error = 0.0021,
+          .true_joins = 10,
+          .joins_found = 6,
+          .joins_made = 8};
+}
+
+TimesRecord generation(const CaseId& id, double settle) {
+  return {
+      .id = id, .times = {.generate = 0.1, .settle = settle, .scan = 0.3, .write = 0.1}, .peak_memory = 90};
+}
+
+/// Ten tubes with ratio 0.3.
+RunKey run_of(const std::string& set, int number) {
+  return {.id = {set, 10, number}, .method = "paper", .ratio = 0.3};
+}
+
+ExperimentRecord experiment() {
+  return {.version = "0.1.0",
+          .dataset_seed = 7,
+          .methods = {"paper"},
+          .ratios = {0.3},
+          .seed = 5,
+          .cases = 3,
+          .recipe_sha256 = "abc"};
+}
+
+/// Two cases of set A and one of set B.
+Results small_results() {
+  Results results;
+  results.experiment = experiment();
+  results.scores = {score(run_of("A", 1), 0.9), score(run_of("A", 2), 0.8), score(run_of("B", 1), 0.7)};
+  results.times = {{run_of("A", 1), 0.4}, {run_of("A", 2), 0.46}, {run_of("B", 1), 0.5}};
+  results.generation = {generation({"A", 10, 1}, 2.0), generation({"A", 10, 2}, 3.0)};
+  return results;
+}
+
+std::string row(const std::vector<std::string>& cells) {
+  std::string text = "<tr><th scope=\"row\">" + cells.front() + "</th>";
+  for (std::size_t i = 1; i < cells.size(); ++i) {
+    const bool is_published = cells[i].front() == '*';
+    text += (is_published ? "<td class=\"published\">" : "<td>") + cells[i].substr(is_published ? 1 : 0) +
+            "</td>";
+  }
+  return text + "</tr>";
+}
+
+// Every number below is by hand; * marks the paper's.
+TEST(Page, Table1HasMeansBesideThePapers) {
+  // Cases of 2.5 s and 3.5 s; 3.0 / 14.20 = 0.211.
+  EXPECT_THAT(report_page(small_results()), HasSubstr(row({"10", "2", "3.000", "*14.20", "0.211"})));
+}
+
+TEST(Page, Table2HasMeansBesideThePapersForSetA) {
+  const std::string page = report_page(small_results());
+  EXPECT_THAT(page, HasSubstr(row({"0.3", "0.430", "*0.85"})));
+  EXPECT_THAT(page, HasSubstr(row({"0.3", "0.500"})));
+}
+
+TEST(Page, Figure8HasTheSpreadAndWhatThePaperStates) {
+  const std::string page = report_page(small_results());
+  EXPECT_THAT(page,
+              HasSubstr(row({"10", "2", "0.850", "0.071", "0.800", "0.825", "0.850", "0.875", "0.900"})));
+  EXPECT_THAT(
+      page,
+      HasSubstr(row({"10", "1", "0.700", "–", "0.700", "0.700", "0.700", "0.700", "0.700", "*≈ 0.831"})));
+  EXPECT_THAT(page, HasSubstr("Set B, published"));
+}
+
+TEST(Page, OtherMeasuresAreMeansAndSharesOfAllJoins) {
+  EXPECT_THAT(
+      report_page(small_results()),
+      HasSubstr(row({"10", "2", "0.500", "0.250", "0.125", "0.750", "2.10", "60 % of 20", "75 % of 16"})));
+}
+
+TEST(Page, TheHeadHasTheHeadlineNumbers) {
+  const std::string page = report_page(small_results());
+  EXPECT_THAT(page, HasSubstr("labels a mean share of 0.850 (set A) and 0.700 (set B) of the points right"));
+  EXPECT_THAT(page, HasSubstr("a case of set A with 10 tubes in 0.43 s on average (published: 0.85 s)"));
+  EXPECT_THAT(page, HasSubstr("2 cases of set A (10 tubes) and 1 case of set B (10 tubes); seed 7"));
+  EXPECT_THAT(page, HasSubstr("i7-8750H"));
+}
+
+TEST(Page, TellsTheCommandsThatMadeIt) {
+  EXPECT_THAT(
+      report_page(small_results()),
+      HasSubstr("tanglebin experiment dataset --out results --method paper --downsample 0.3 --seed 5\n"));
+}
+
+TEST(Page, SaysThatOnlySomeCasesOfTheDatasetWereModelled) {
+  Results results = small_results();
+  EXPECT_THAT(report_page(results), Not(HasSubstr("These results are of")));
+  results.experiment.cases = 1;
+  EXPECT_THAT(report_page(results), HasSubstr("These results are of 1 of the dataset's 2 cases"));
+}
+
+TEST(Page, SaysWhereItShowsAnotherRatioOrNumberOfTubesThanThePaper) {
+  Results results = small_results();
+  EXPECT_THAT(report_page(results), Not(HasSubstr("was not run")));
+  for (RunScore& run : results.scores) {
+    run.run.ratio = 0.25;
+    run.run.id.tubes = 7;
+  }
+  const std::string page = report_page(results);
+  EXPECT_THAT(page, HasSubstr("The ratio of the paper's Figure 8, 0.3, was not run; 0.25 is the nearest."));
+  EXPECT_THAT(page, HasSubstr("Figure 9, 10, was not run; 7 is the nearest."));
+}
+
+TEST(Page, CasesWithoutTubesFoundHaveNoPartInTheCentreLineError) {
+  Results results = small_results();
+  results.scores[0].centre_line_error.reset();
+  EXPECT_THAT(report_page(results), HasSubstr("<td>2.10</td>"));
+  results.scores[1].centre_line_error.reset();
+  EXPECT_THAT(report_page(results), HasSubstr("<td>0.750</td><td>–</td>"));
+}
+
+TEST(Page, SaysWhatIsMissing) {
+  Results nothing;
+  nothing.experiment = experiment();
+  nothing.unfinished = true;
+  const std::string page = report_page(nothing);
+  for (const char* file : {"generation.jsonl", "times.jsonl", "results.jsonl", "pictures.jsonl"}) {
+    EXPECT_THAT(page, HasSubstr(std::string("<code>") + file + "</code>"));
+  }
+  EXPECT_THAT(page, HasSubstr("This experiment is not finished"));
+  EXPECT_THAT(page, Not(HasSubstr("<svg")));
+  EXPECT_THAT(page, Not(HasSubstr("<table")));
+}
+
+TEST(Page, APictureThatIsMissingIsNamed) {
+  Results results = small_results();
+  results.pictures = {{.run = results.scores[0].run,
+                       .rank = "worst",
+                       .micro_recall = 0.8,
+                       .truth_file = "pictures/<gone>.png",
+                       .truth_png = {},
+                       .labels_file = "pictures/there.png",
+                       .labels_png = test::picture_png(40, 30)}};
+  const std::string page = report_page(results);
+  EXPECT_THAT(page, HasSubstr("<code>pictures/&lt;gone&gt;.png</code> is missing."));
+  EXPECT_THAT(
+      page,
+      HasSubstr(
+          "width=\"40\" height=\"30\" alt=\"The labels of method paper for set A, 10 tubes, case 1.\""));
+  EXPECT_THAT(
+      page, HasSubstr("<b>Worst:</b> set A, 10 tubes, case 1, method paper, ratio 0.3: micro-recall 0.800."));
+}
+
+TEST(Page, NamesFromFilesAreText) {
+  Results results = small_results();
+  const std::string name = "<script>alert('1')</script>";
+  results.experiment.version = name;
+  results.experiment.recipe_sha256 = name;
+  results.experiment.methods = {name, "other"};
+  for (RunScore& run : results.scores) run.run.method = name;
+  for (RunTime& run : results.times) run.run.method = name;
+  for (RunScore& run : results.scores) run.run.id.set = name;
+  for (RunTime& run : results.times) run.run.id.set = name;
+  for (TimesRecord& record : results.generation) record.id.set = name;
+  results.pictures = {{.run = results.scores[0].run,
+                       .rank = "best",
+                       .truth_file = name,
+                       .truth_png = test::picture_png(4, 3),
+                       .labels_file = name,
+                       .labels_png = {}}};
+  const std::string page = report_page(results);
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, HasSubstr("&lt;script&gt;"));
+}
+
+TEST(Page, NeedsNoOtherFileAndNoScript) {
+  const std::string page = report_page(small_results());
+  for (const char* part : {"<script", "<link", "src=\"http", "url(http", "@import", " onload="}) {
+    EXPECT_THAT(page, Not(HasSubstr(part)));
+  }
+}
+
+TEST(Page, TheSameResultsGiveTheSameBytes) {
+  EXPECT_EQ(report_page(small_results()), report_page(small_results()));
+}
+
+}  // namespace
+}  // namespace tanglebin
