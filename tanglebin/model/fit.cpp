@@ -87,22 +87,27 @@ Cylinder densest_piece(const OrientedCloud& cloud, const EndlessCylinder& cylind
     along.emplace_back(cylinder.axis.dot(cloud.points[i].cast<double>() - cylinder.point), i);
   }
   std::ranges::sort(along);
-  auto best = std::ranges::subrange(along.begin(), along.begin());
+  auto best_first = along.begin();
+  auto best_last = along.begin();
   for (auto first = along.begin(); first != along.end();) {
     const auto gap = std::adjacent_find(first, along.end(), [&](const auto& here, const auto& next) {
       return next.first - here.first > settings.gap_max;
     });
     const auto last = gap == along.end() ? gap : std::next(gap);
-    if (last - first > std::ranges::ssize(best)) best = {first, last};
+    if (last - first > best_last - best_first) {
+      best_first = first;
+      best_last = last;
+    }
     first = last;
   }
 
-  const double length = best.back().first - best.front().first;
-  const double trim = std::min(settings.trim, length / 4);
-  Cylinder piece{{cylinder.point + (best.front().first + trim) * cylinder.axis,
-                  cylinder.point + (best.back().first - trim) * cylinder.axis},
-                 {}};
-  for (const auto& [position, point] : best) piece.points.push_back(point);
+  const double start = best_first->first;
+  const double end = std::prev(best_last)->first;
+  const double trim = std::min(settings.trim, (end - start) / 4);
+  Cylinder piece{
+      {cylinder.point + (start + trim) * cylinder.axis, cylinder.point + (end - trim) * cylinder.axis}, {}};
+  std::transform(best_first, best_last, std::back_inserter(piece.points),
+                 [](const auto& point) { return point.second; });
   std::ranges::sort(piece.points);
   return piece;
 }

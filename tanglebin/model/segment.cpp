@@ -20,6 +20,7 @@ std::vector<std::vector<std::size_t>> grow_regions(const OrientedCloud& cloud,
   growing.extract(regions);
 
   std::vector<std::vector<std::size_t>> clusters;
+  clusters.reserve(regions.size());
   for (const pcl::PointIndices& region : regions) {
     clusters.emplace_back(region.indices.begin(), region.indices.end());
   }
