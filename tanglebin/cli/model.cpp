@@ -47,19 +47,31 @@ KnownScene known_scene(const ModelArguments& arguments) {
   return {bin_preset(arguments.bin), camera_preset(arguments.scanner), arguments.radius, arguments.length};
 }
 
-// The cloud with the labels that were found, in PLY, or in PCD where the file's name asks for it.
-std::string labelled_bytes(PointCloud cloud, const Model& model, const std::string& file) {
+// The cloud's points in their order, with the labels that were found. PLY has no place for points without a
+// position, which organized clouds have.
+PointCloud labelled_cloud(const PointCloud& cloud, const Model& model, bool keep_missing_points) {
   const std::vector<Color> colors = label_colors(static_cast<int>(model.tubes.size()));
-  cloud.labels = model.labels;
-  cloud.colors.clear();
-  for (const std::int32_t label : cloud.labels) {
-    cloud.colors.push_back(label == null_label ? null_color : colors[static_cast<std::size_t>(label)]);
+  PointCloud labelled;
+  labelled.viewpoint = cloud.viewpoint;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (!keep_missing_points && !cloud.points[i].allFinite()) continue;
+    const std::int32_t label = model.labels[i];
+    labelled.points.push_back(cloud.points[i]);
+    labelled.labels.push_back(label);
+    labelled.colors.push_back(label == null_label ? null_color : colors[static_cast<std::size_t>(label)]);
   }
+  labelled.width = keep_missing_points ? cloud.width : labelled.points.size();
+  labelled.height = keep_missing_points ? cloud.height : 1;
+  return labelled;
+}
+
+// PLY, or PCD where the file's name asks for it.
+std::string cloud_bytes(const PointCloud& cloud, const Model& model, const std::string& file) {
   std::ostringstream out;
   if (std::filesystem::path(file).extension() == ".pcd") {
-    write_pcd(out, cloud);
+    write_pcd(out, labelled_cloud(cloud, model, true));
   } else {
-    write_ply(out, cloud);
+    write_ply(out, labelled_cloud(cloud, model, false));
   }
   return std::move(out).str();
 }
@@ -96,7 +108,7 @@ void model_cloud(const ModelArguments& arguments) {
   const KnownScene known = known_scene(arguments);
   const Model model = model_tubes(cloud, known, method_named(arguments.method), arguments.downsample,
                                   static_cast<std::uint64_t>(arguments.seed), arguments.cloud);
-  write_output(arguments.out, labelled_bytes(cloud, model, arguments.out));
+  write_output(arguments.out, cloud_bytes(cloud, model, arguments.out));
   if (arguments.tubes) {
     std::ostringstream tubes;
     write_configuration(tubes, model.tubes);

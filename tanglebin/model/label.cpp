@@ -8,16 +8,6 @@
 #include "tanglebin/model/pcl_cloud.hpp"
 
 namespace tanglebin {
-namespace {
-
-double distance_to_axis(const Capsule& capsule, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d axis = capsule.b - capsule.a;
-  const double t = std::clamp(axis.dot(point - capsule.a) / axis.squaredNorm(), 0.0, 1.0);
-  return (point - capsule.a - t * axis).norm();
-}
-
-}  // namespace
-
 std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::vector<std::size_t>& points,
                                            const std::vector<Tube>& tubes, const LabelSettings& settings) {
   std::vector<std::int32_t> labels(points.size(), null_label);
@@ -42,7 +32,7 @@ std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::v
       for (const pcl::index_t found : around) {
         const auto i = static_cast<std::size_t>(found);
         const double distance =
-            std::abs(distance_to_axis(capsule, positions[i].cast<double>()) - capsule.radius);
+            std::abs(axis_distance(capsule, positions[i].cast<double>()) - capsule.radius);
         if (distance >= nearest[i]) continue;
         nearest[i] = distance;
         labels[i] = tube.id;

@@ -22,10 +22,10 @@ std::string mean_error_mm(const std::vector<RunScore>& runs) {
   return fmt::format("{:.2f}", millimetres * summarize(values(found, error)).mean);
 }
 
-/// "82 % of 50"
+/// "82.0 % of 50"
 std::string percentage(std::size_t part, std::size_t whole) {
   if (whole == 0) return "–";
-  return fmt::format("{:.0f} % of {}", 100.0 * static_cast<double>(part) / static_cast<double>(whole), whole);
+  return fmt::format("{:.1f} % of {}", 100.0 * static_cast<double>(part) / static_cast<double>(whole), whole);
 }
 
 std::size_t sum(const std::vector<RunScore>& runs, std::size_t RunScore::*count) {

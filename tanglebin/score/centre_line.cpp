@@ -5,20 +5,6 @@
 #include <utility>
 
 namespace tanglebin {
-namespace {
-
-// The point of the axis that is nearest to a point is a + t (b − a).
-double nearest_on_axis(const Capsule& capsule, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d axis = capsule.b - capsule.a;
-  const double square = axis.squaredNorm();
-  return square > 0 ? std::clamp((point - capsule.a).dot(axis) / square, 0.0, 1.0) : 0.0;
-}
-
-double distance_at(const Capsule& capsule, double t, const Eigen::Vector3d& point) {
-  return (capsule.a + t * (capsule.b - capsule.a) - point).norm();
-}
-
-}  // namespace
 
 CentreLine::CentreLine(const Tube& tube)
     : radius_(tube.radius),
@@ -77,10 +63,6 @@ double CentreLine::way(const Place& a, const Place& b) const {
   // The way goes up to where both ways to node 0 meet, unless one place is above the other.
   const double top = std::min({a.depth, b.depth, depths_[above_a]});
   return a.depth + b.depth - 2 * top;
-}
-
-double axis_distance(const Capsule& capsule, const Eigen::Vector3d& point) {
-  return distance_at(capsule, nearest_on_axis(capsule, point), point);
 }
 
 }  // namespace tanglebin

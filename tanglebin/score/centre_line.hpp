@@ -51,7 +51,4 @@ private:
   std::vector<double> depths_;
 };
 
-/// The distance of a point from the axis of a capsule, m.
-double axis_distance(const Capsule& capsule, const Eigen::Vector3d& point);
-
 }  // namespace tanglebin

@@ -4,6 +4,17 @@
 
 namespace tanglebin {
 
+double nearest_on_axis(const Capsule& capsule, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d axis = capsule.b - capsule.a;
+  const double square = axis.squaredNorm();
+  return square > 0 ? std::clamp((point - capsule.a).dot(axis) / square, 0.0, 1.0) : 0.0;
+}
+
+double axis_distance(const Capsule& capsule, const Eigen::Vector3d& point) {
+  const double t = nearest_on_axis(capsule, point);
+  return (capsule.a + t * (capsule.b - capsule.a) - point).norm();
+}
+
 SegmentPair closest_points(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
                            const Eigen::Vector3d& q1) {
   const Eigen::Vector3d p = p1 - p0;

@@ -11,6 +11,12 @@ struct Capsule {
   double radius;
 };
 
+/// Where the axis is nearest to a point: at a + t (b − a), t in [0, 1].
+double nearest_on_axis(const Capsule& capsule, const Eigen::Vector3d& point);
+
+/// The distance of a point from the axis, m.
+double axis_distance(const Capsule& capsule, const Eigen::Vector3d& point);
+
 /// The closest points of two segments p0–p1 and q0–q1: p0 + s (p1 − p0) and q0 + t (q1 − q0), with s and t
 /// in [0, 1].
 struct SegmentPair {

@@ -87,9 +87,8 @@ TEST(Page, Figure8HasTheSpreadAndWhatThePaperStates) {
 }
 
 TEST(Page, OtherMeasuresAreMeansAndSharesOfAllJoins) {
-  EXPECT_THAT(
-      report_page(small_results()),
-      HasSubstr(row({"10", "2", "0.500", "0.250", "0.125", "0.750", "2.10", "60 % of 20", "75 % of 16"})));
+  EXPECT_THAT(report_page(small_results()), HasSubstr(row({"10", "2", "0.500", "0.250", "0.125", "0.750",
+                                                           "2.10", "60.0 % of 20", "75.0 % of 16"})));
 }
 
 TEST(Page, TheHeadHasTheHeadlineNumbers) {

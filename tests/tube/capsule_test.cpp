@@ -105,6 +105,14 @@ TEST(ClosestPoints, OfTwoPointsAreThePoints) {
   EXPECT_DOUBLE_EQ(closest_points({0, 0, 0}, {0, 0, 0}, {3, 4, 0}, {3, 4, 0}).distance, 5);
 }
 
+TEST(AxisDistance, IsThatOfTheNearestPointOfTheAxis) {
+  const Capsule capsule{{0, 0, 0}, {4, 0, 0}, 0.1};
+  EXPECT_DOUBLE_EQ(axis_distance(capsule, {1, 2, 0}), 2);
+  EXPECT_DOUBLE_EQ(nearest_on_axis(capsule, {1, 2, 0}), 0.25);
+  EXPECT_DOUBLE_EQ(axis_distance(capsule, {7, 4, 0}), 5) << "beyond its end";
+  EXPECT_DOUBLE_EQ(axis_distance({{1, 1, 1}, {1, 1, 1}, 0.1}, {1, 1, 3}), 2) << "a sphere";
+}
+
 TEST(SurfaceDistance, IsWhatTheRadiiLeaveOfTheDistance) {
   const Capsule first{{0, 0, 0}, {1, 0, 0}, 0.1};
   EXPECT_DOUBLE_EQ(surface_distance(first, {{0, 1, 0}, {1, 1, 0}, 0.3}), 0.6);

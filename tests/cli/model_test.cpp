@@ -1,0 +1,144 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "../model/scanned.hpp"
+#include "../support/program.hpp"
+#include "tanglebin/cloud/pcd.hpp"
+#include "tanglebin/cloud/ply.hpp"
+#include "tanglebin/cloud/read_cloud.hpp"
+#include "tanglebin/dataset/configuration.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::ProgramResult;
+using test::run_program;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Two tubes that cross, scanned.
+class ModelCommand : public testing::Test {
+protected:
+  ModelCommand() {
+    write("scan.ply", ply_of(scan_));
+    std::ostringstream text;
+    write_configuration(text, tubes_);
+    write("truth.txt", text.str());
+  }
+
+  static std::string ply_of(const PointCloud& cloud) {
+    std::ostringstream out;
+    write_ply(out, cloud);
+    return out.str();
+  }
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  void write(const std::string& name, const std::string& bytes) const {
+    test::write_bytes(directory_ / name, bytes);
+  }
+  ProgramResult model(const std::string& cloud, const std::string& options) const {
+    return run_program("model " + path(cloud) + " --out " + path("labelled.ply") + " " + options);
+  }
+
+  std::vector<Tube> tubes_ = {
+      test::chain(1, 0.0125, {{-0.2, 0, 0.0125}, {0, 0.02, 0.0125}, {0.2, 0, 0.0125}}),
+      test::chain(2, 0.0125, {{0.03, -0.15, 0.0125}, {0.03, 0, 0.06}, {0.03, 0.15, 0.0125}})};
+  PointCloud scan_ = test::scanned(tubes_);
+  test::TemporaryDirectory directory_;
+};
+
+TEST_F(ModelCommand, WritesThePointsWithLabelsAndTheTubes) {
+  const ProgramResult run = model("scan.ply", "--downsample 0.5 --tubes " + path("tubes.txt"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  for (const char* step : {"filter", "segment", "fit", "join", "label"})
+    EXPECT_THAT(run.out, HasSubstr(step));
+  const PointCloud labelled = read_cloud(directory_ / "labelled.ply");
+  EXPECT_EQ(labelled.points, scan_.points);
+  EXPECT_EQ(read_configuration(directory_ / "tubes.txt").size(), 2U);
+
+  const ProgramResult score =
+      run_program("score --json --truth " + path("scan.ply") + " --labels " + path("labelled.ply") +
+                  " --true-tubes " + path("truth.txt") + " --tubes " + path("tubes.txt"));
+  ASSERT_EQ(score.status, 0) << score.err;
+  const auto json = nlohmann::json::parse(score.out);
+  EXPECT_GT(json.at("micro_recall"), 0.98);
+  EXPECT_LT(json.at("centre_line_error"), 0.001);
+}
+
+TEST_F(ModelCommand, PrintsItsStepsAsJson) {
+  const ProgramResult run = model("scan.ply", "--json");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json.at("points"), scan_.points.size());
+  EXPECT_EQ(json.at("tubes"), 2);
+  std::vector<std::string> names;
+  for (const auto& step : json.at("steps")) names.push_back(step.at("name"));
+  EXPECT_THAT(names, ElementsAre("filter", "segment", "fit", "join", "label"));
+}
+
+TEST_F(ModelCommand, ReadsAPipeAndWritesOne) {
+  const ProgramResult run = run_program("model - --out -", ply_of(scan_));
+  ASSERT_EQ(run.status, 0) << run.err;
+  std::istringstream in(run.out);
+  EXPECT_EQ(read_cloud(in, "output").points, scan_.points);
+}
+
+TEST_F(ModelCommand, KeepsAnOrganizedCloudOrganizedInPcdAndDropsItsHolesInPly) {
+  const KnownScene scene = test::paper_scene();
+  const PointCloud organized =
+      organized_cloud_from_scan(scan(tubes_, scene.bin, scene.camera), CloudOf::tubes_and_bin, 2);
+  std::ostringstream pcd;
+  write_pcd(pcd, organized);
+  write("scan.pcd", pcd.str());
+  ASSERT_EQ(model("scan.pcd", "").status, 0);
+  EXPECT_EQ(read_cloud(directory_ / "labelled.ply").points, scan_.points);
+  const std::string out = path("labelled.pcd");
+  ASSERT_EQ(run_program("model " + path("scan.pcd") + " --out " + out).status, 0);
+  const PointCloud labelled = read_cloud(std::filesystem::path(out));
+  EXPECT_EQ(labelled.width, organized.width);
+  EXPECT_EQ(labelled.height, organized.height);
+}
+
+TEST_F(ModelCommand, DrawsWhatEachStepLeft) {
+  ASSERT_EQ(model("scan.ply", "--downsample 0.3 --debug-dir " + path("steps")).status, 0);
+  for (const char* name : {"1-filtered", "2-segmented", "3-fitted", "4-joined", "5-labelled"}) {
+    const std::string png = test::bytes_of(directory_ / "steps" / (std::string(name) + ".png"));
+    EXPECT_TRUE(png.starts_with("\x89PNG")) << name;
+  }
+}
+
+TEST_F(ModelCommand, OfAnEmptyCloudWritesAnEmptyOne) {
+  write("empty.ply", ply_of({}));
+  const ProgramResult run =
+      model("empty.ply", "--tubes " + path("tubes.txt") + " --debug-dir " + path("steps"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(read_cloud(directory_ / "labelled.ply").points.empty());
+  EXPECT_EQ(test::bytes_of(directory_ / "tubes.txt"), "0\n");
+}
+
+TEST_F(ModelCommand, RefusesWhatItCannotModel) {
+  PointCloud millimetres = scan_;
+  for (Eigen::Vector3f& point : millimetres.points) point *= 1000;
+  write("mm.ply", ply_of(millimetres));
+  const std::vector<std::pair<ProgramResult, std::string>> refusals = {
+      {model("mm.ply", ""), "millimetres?"},
+      {model("scan.ply", "--method magic"), "method: found \"magic\", expected paper"},
+      {model("scan.ply", "--downsample 0"), "downsample: found 0, expected"},
+      {model("scan.ply", "--radius -1"), "radius: found -1, expected a positive number"},
+      {model("scan.ply", "--bin bucket"), "bucket"},
+      {model("nowhere.ply", ""), "nowhere.ply"},
+  };
+  for (const auto& [run, message] : refusals) {
+    EXPECT_EQ(run.status, 2) << message;
+    EXPECT_THAT(run.err, HasSubstr(message));
+  }
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "labelled.ply"));
+  EXPECT_EQ(run_program("model " + path("scan.ply")).status, 64);
+}
+
+}  // namespace
+}  // namespace tanglebin
