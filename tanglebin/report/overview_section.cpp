@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "tanglebin/report/html.hpp"
 #include "tanglebin/report/published_figures.hpp"
 #include "tanglebin/report/sections.hpp"
@@ -22,7 +25,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 std::string ratios_text(const std::vector<double>& ratios) {
   std::vector<std::string> words;
-  for (const double ratio : ratios) words.push_back(ratio_text(ratio));
+  std::ranges::transform(ratios, std::back_inserter(words), ratio_text);
   return fmt::format("{}", fmt::join(words, ", "));
 }
 

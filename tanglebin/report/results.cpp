@@ -193,13 +193,22 @@ RunTime time_of(const Record& record) {
   return {.run = run_of(record), .seconds = record.number("seconds", 0, infinity)};
 }
 
+/// A file of the results directory; no other is read.
+std::string path_inside(const Record& record, const std::string& field) {
+  std::string text = record.text(field);
+  const fs::path path(text);
+  if (path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end())
+    record.fail(field, excerpt(text), "a path below the results directory");
+  return text;
+}
+
 CasePictures pictures_of(const Record& record) {
   CasePictures pictures{.run = run_of(record),
                         .rank = record.text("rank"),
                         .micro_recall = record.share("micro_recall"),
-                        .truth_file = record.text("truth"),
+                        .truth_file = path_inside(record, "truth"),
                         .truth_png = {},
-                        .labels_file = record.text("labels"),
+                        .labels_file = path_inside(record, "labels"),
                         .labels_png = {}};
   const std::vector<std::string> ranks = {"best", "median", "worst"};
   if (std::ranges::find(ranks, pictures.rank) == ranks.end()) {

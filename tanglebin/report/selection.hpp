@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ struct RunGroup {
 template <typename Record, typename Key>
 auto distinct(const std::vector<Record>& records, const Key& key) {
   std::vector<std::decay_t<decltype(key(records.front()))>> values;
-  for (const Record& record : records) values.push_back(key(record));
+  std::ranges::transform(records, std::back_inserter(values), key);
   std::ranges::sort(values);
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
@@ -40,7 +41,7 @@ std::vector<Record> chosen(const std::vector<Record>& records, const IsWanted& i
 template <typename Record, typename Value>
 std::vector<double> values(const std::vector<Record>& records, const Value& value) {
   std::vector<double> result;
-  for (const Record& record : records) result.push_back(value(record));
+  std::ranges::transform(records, std::back_inserter(result), value);
   return result;
 }
 

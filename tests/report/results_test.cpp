@@ -120,6 +120,13 @@ TEST_F(ResultsDirectory, AnUnknownRankIsNamed) {
   expect_error("pictures.jsonl:1: rank: found '<b>'", "expected best, median or worst");
 }
 
+TEST_F(ResultsDirectory, NamesNoPictureOutsideOfIt) {
+  change("pictures.jsonl", "pictures/paper-best-truth.png", "pictures/../../other.png");
+  expect_error("pictures.jsonl:1: truth: found 'pictures/../../other.png'", "below the results directory");
+  change("pictures.jsonl", "pictures/../../other.png", "/other.png");
+  expect_error("pictures.jsonl:1: truth: found '/other.png'", "below the results directory");
+}
+
 TEST_F(ResultsDirectory, TimesOfGenerationAreReadAsStrictly) {
   change("generation.jsonl", "\"settle\"", "\"sett\"");
   expect_error("generation.jsonl:1: ", "settle");

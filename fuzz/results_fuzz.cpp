@@ -1,0 +1,47 @@
+// Any bytes in place of a file of a results directory are either results or an InputError. The first byte
+// chooses the file.
+
+#include <unistd.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/report/results.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const fs::path directory =
+      fs::temp_directory_path() / ("tanglebin-fuzz-results-" + std::to_string(getpid()));
+  static const std::array<std::string, 5> files = {"experiment.json", "results.jsonl", "times.jsonl",
+                                                   "generation.jsonl", "pictures.jsonl"};
+  if (size == 0) return 0;
+  fs::remove_all(directory);
+  fs::create_directories(directory);
+  write(
+      directory / "experiment.json",
+      R"({"version":"0","dataset_seed":1,"methods":["paper"],"ratios":[0.3],"seed":0,"recipe_sha256":"","cases":1})");
+  write(directory / files[data[0] % files.size()], std::string(data + 1, data + size));
+  try {
+    tanglebin::read_results_directory(directory);
+  } catch (const tanglebin::InputError& error) {
+    // The program prints it on one line.
+    if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
+  }
+  fs::remove_all(directory);
+  return 0;
+}
