@@ -12,17 +12,11 @@
 namespace tanglebin {
 namespace {
 
+using test::cloud_of;
 using test::paper_scene;
 using test::scanned;
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-PointCloud cloud_of(const std::vector<Eigen::Vector3f>& points) {
-  PointCloud cloud;
-  cloud.points = points;
-  cloud.width = points.size();
-  return cloud;
-}
 
 std::vector<std::size_t> all_of(const PointCloud& cloud) {
   std::vector<std::size_t> indices(cloud.points.size());

@@ -9,15 +9,9 @@
 namespace tanglebin {
 namespace {
 
+using test::cloud_of;
 using testing::Each;
 using testing::ElementsAre;
-
-PointCloud cloud_of(const std::vector<Eigen::Vector3f>& points) {
-  PointCloud cloud;
-  cloud.points = points;
-  cloud.width = points.size();
-  return cloud;
-}
 
 TEST(LabelByNearest, GivesAPointToTheNearestSurface) {
   const std::vector<Tube> tubes = {test::straight_tube(1, 0), test::straight_tube(2, 0.03)};

@@ -15,6 +15,7 @@
 namespace tanglebin {
 namespace {
 
+using test::cloud_of;
 using test::paper_scene;
 using test::scanned;
 using testing::Each;
@@ -40,13 +41,6 @@ std::string complaint(const PointCloud& cloud, const KnownScene& scene, double r
     return error.what();
   }
   return "";
-}
-
-PointCloud cloud_of(const std::vector<Eigen::Vector3f>& points) {
-  PointCloud cloud;
-  cloud.points = points;
-  cloud.width = points.size();
-  return cloud;
 }
 
 TEST(ModelTubes, FindsTheTubesOfAnEasyScene) {

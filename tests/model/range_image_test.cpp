@@ -10,17 +10,11 @@ namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
+using test::cloud_of;
 
 // A camera 2 m above the origin whose pixels are 2 mm wide on the floor.
 Camera small_camera() {
   return downward_camera(101, 101, 1000, {0, 0, 2});
-}
-
-PointCloud cloud_of(const std::vector<Eigen::Vector3f>& points) {
-  PointCloud cloud;
-  cloud.points = points;
-  cloud.width = points.size();
-  return cloud;
 }
 
 TEST(RangeImage, HidesAWayUnderWhatIsNearerThanItsFartherEnd) {

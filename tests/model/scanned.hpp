@@ -21,6 +21,14 @@ inline PointCloud scanned(const std::vector<Tube>& tubes) {
                          static_cast<int>(tubes.size()));
 }
 
+/// A cloud of points without labels.
+inline PointCloud cloud_of(const std::vector<Eigen::Vector3f>& points) {
+  PointCloud cloud;
+  cloud.points = points;
+  cloud.width = points.size();
+  return cloud;
+}
+
 /// A tube that lies on the floor along x, half a metre long, at this y.
 inline Tube straight_tube(int id, double y) {
   return chain(id, 0.0125, {{-0.25, y, 0.0125}, {0.25, y, 0.0125}});
