@@ -25,16 +25,15 @@ using Clock = std::chrono::steady_clock;
 struct ExperimentArguments {
   std::string dataset;
   std::string out;
-  std::vector<std::string> methods;
+  std::vector<std::string> methods = {name_of(Method::axis)};
   std::string ratios = "0.1:1.0:0.1";
   ManyCases many;
   std::int64_t seed = 0;
   bool json = false;
 };
 
-// All methods, or those that were asked for.
+// In the order of methods().
 std::vector<Method> methods_of(const ExperimentArguments& arguments) {
-  if (arguments.methods.empty()) return methods();
   std::vector<Method> asked;
   for (const std::string& name : arguments.methods) asked.push_back(method_named(name));
   std::vector<Method> result = methods();
@@ -118,7 +117,8 @@ void add_experiment(CLI::App& app) {
   command->add_option("dataset", arguments->dataset, "Directory of a dataset made by generate")->required();
   command->add_option("--out", arguments->out, "Directory of the results; a run that was stopped goes on")
       ->required();
-  command->add_option("--method", arguments->methods, "Only these methods");
+  command->add_option("--method", arguments->methods, "Methods: axis, paper or both, one option each")
+      ->capture_default_str();
   command
       ->add_option("--downsample", arguments->ratios,
                    "Shares of the points to model from: 0.1,0.3 or first:last:step")

@@ -22,6 +22,7 @@
 #include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/dataset/images.hpp"
 #include "tanglebin/dataset/safe_file.hpp"
+#include "tanglebin/model/axis_method.hpp"
 #include "tanglebin/model/paper_method.hpp"
 #include "tanglebin/report/pictures_of_steps.hpp"
 
@@ -32,19 +33,21 @@ struct ModelArguments {
   std::string cloud;
   std::string out;
   std::optional<std::string> tubes;
-  std::string method = name_of(Method::paper);
+  std::string method = name_of(Method::axis);
   double downsample = 1;
   std::int64_t seed = 0;
   std::string bin = "paper";
   std::string scanner = "paper";
   double radius = KnownScene().radius;
   double length = KnownScene().length;
+  int junctions = KnownScene().junctions;
   std::optional<std::string> debug_directory;
   bool json = false;
 };
 
 KnownScene known_scene(const ModelArguments& arguments) {
-  return {bin_preset(arguments.bin), camera_preset(arguments.scanner), arguments.radius, arguments.length};
+  return {bin_preset(arguments.bin), camera_preset(arguments.scanner), arguments.radius, arguments.length,
+          arguments.junctions};
 }
 
 // The cloud's points in their order, with the labels that were found. PLY has no place for points without a
@@ -92,12 +95,23 @@ void print_summary(const ModelArguments& arguments, const Model& model) {
   }
 }
 
+std::vector<NamedPicture> pictures(const PointCloud& cloud, const KnownScene& known,
+                                   const ModelArguments& arguments) {
+  const auto seed = static_cast<std::uint64_t>(arguments.seed);
+  switch (method_named(arguments.method)) {
+    case Method::paper:
+      return pictures_of_steps(cloud, model_as_in_paper(cloud, known, arguments.downsample, seed), known.bin,
+                               known.radius, arguments.cloud);
+    case Method::axis:
+      return pictures_of_steps(cloud, model_by_axes(cloud, known, arguments.downsample, seed), known.bin,
+                               arguments.cloud);
+  }
+  return {};
+}
+
 void write_pictures(const PointCloud& cloud, const KnownScene& known, const ModelArguments& arguments) {
-  const PaperModel steps =
-      model_as_in_paper(cloud, known, arguments.downsample, static_cast<std::uint64_t>(arguments.seed));
   make_directories(*arguments.debug_directory);
-  for (const auto& [name, picture] :
-       pictures_of_steps(cloud, steps, known.bin, known.radius, arguments.cloud)) {
+  for (const auto& [name, picture] : pictures(cloud, known, arguments)) {
     write_file(std::filesystem::path(*arguments.debug_directory) / (name + ".png"),
                color_png(picture.width, picture.height, picture.pixels));
   }
@@ -129,7 +143,7 @@ void add_model(CLI::App& app) {
                    "The same points with labels: .ply or .pcd; - writes PLY to standard output")
       ->required();
   command->add_option("--tubes", arguments->tubes, "The tubes (text, docs/formats.md)");
-  command->add_option("--method", arguments->method, "Method: paper")->capture_default_str();
+  command->add_option("--method", arguments->method, "Method: axis or paper")->capture_default_str();
   command
       ->add_option("--downsample", arguments->downsample,
                    "Share of the points that tubes are modelled from; every point gets a label all the same")
@@ -142,7 +156,12 @@ void add_model(CLI::App& app) {
   command->add_option("--scanner", arguments->scanner, "Camera: paper or zivid-one-plus-l")
       ->capture_default_str();
   command->add_option("--radius", arguments->radius, "Radius of the tubes, m")->capture_default_str();
-  command->add_option("--length", arguments->length, "Length of each tube, m")->capture_default_str();
+  command->add_option("--length", arguments->length, "Length of each tube, m, its branches included")
+      ->capture_default_str();
+  command
+      ->add_option("--junctions", arguments->junctions,
+                   "Junctions of each tube at most: 0 for chains, more for trees (method axis)")
+      ->capture_default_str();
   command->add_option("--debug-dir", arguments->debug_directory,
                       "Directory for a picture of what each step left");
   command->add_flag("--json", arguments->json, "Print the steps as JSON");

@@ -14,11 +14,26 @@ const TubeSpec& spec_of(const Recipe& recipe, const std::string& set) {
   return std::ranges::find(recipe.sets, set, &SetRecipe::name)->spec;
 }
 
+// Named nodes at which three segments or more meet.
+int junctions(const TubeSpec& spec) {
+  std::map<int, int> segments_at;
+  for (const Segment& segment : spec.segments) {
+    ++segments_at[segment.from];
+    ++segments_at[segment.to];
+  }
+  return static_cast<int>(
+      std::ranges::count_if(segments_at, [](const auto& node) { return node.second > 2; }));
+}
+
 KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
   const TubeSpec& spec = spec_of(recipe, id.set);
   double length = 0;
   for (const Segment& segment : spec.segments) length += segment.length;
-  return {.bin = recipe.bin, .camera = recipe.camera, .radius = spec.radius, .length = length};
+  return {.bin = recipe.bin,
+          .camera = recipe.camera,
+          .radius = spec.radius,
+          .length = length,
+          .junctions = junctions(spec)};
 }
 
 template <typename Value>

@@ -1,44 +1,66 @@
 #include "tanglebin/model/label.hpp"
 
-#include <pcl/search/kdtree.h>
-
-#include <algorithm>
+#include <Eigen/Geometry>
 #include <cmath>
 
-#include "tanglebin/model/pcl_cloud.hpp"
-
 namespace tanglebin {
-std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::vector<std::size_t>& points,
-                                           const std::vector<Tube>& tubes, const LabelSettings& settings) {
-  std::vector<std::int32_t> labels(points.size(), null_label);
-  if (points.empty()) return labels;
-  std::vector<Eigen::Vector3f> positions;
-  positions.reserve(points.size());
-  for (const std::size_t point : points) positions.push_back(cloud.points[point]);
-  pcl::search::KdTree<pcl::PointXYZ> tree(false);
-  tree.setInputCloud(pcl_points(positions));
+namespace {
 
-  // Each capsule claims the points around it that no nearer one has claimed.
-  std::vector<double> nearest(points.size(), settings.distance_max);
-  pcl::Indices around;
-  std::vector<float> squared_distances;
+/// A piece of a tube's surface, and a box around all points that are near to it.
+struct Claim {
+  std::int32_t label;
+  Capsule capsule;
+  Eigen::AlignedBox3d box;
+};
+
+std::vector<Claim> claims_of(const std::vector<Tube>& tubes, double distance_max) {
+  std::vector<Claim> claims;
   for (const Tube& tube : tubes) {
     for (const Capsule& capsule : capsules(tube)) {
-      const Eigen::Vector3d centre = (capsule.a + capsule.b) / 2;
-      const double reach = (capsule.b - capsule.a).norm() / 2 + capsule.radius + settings.distance_max;
-      const pcl::PointXYZ query(static_cast<float>(centre.x()), static_cast<float>(centre.y()),
-                                static_cast<float>(centre.z()));
-      tree.radiusSearch(query, reach, around, squared_distances);
-      for (const pcl::index_t found : around) {
-        const auto i = static_cast<std::size_t>(found);
-        const double distance =
-            std::abs(axis_distance(capsule, positions[i].cast<double>()) - capsule.radius);
-        if (distance >= nearest[i]) continue;
-        nearest[i] = distance;
-        labels[i] = tube.id;
-      }
+      Eigen::AlignedBox3d box(capsule.a);
+      box.extend(capsule.b);
+      box.min().array() -= capsule.radius + distance_max;
+      box.max().array() += capsule.radius + distance_max;
+      claims.push_back({tube.id, capsule, box});
     }
   }
+  return claims;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::vector<std::size_t>& points,
+                                           const std::vector<Tube>& tubes, const LabelSettings& settings) {
+  const std::vector<Claim> claims = claims_of(tubes, settings.distance_max);
+  std::vector<std::int32_t> labels(points.size(), null_label);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d point = cloud.points[points[i]].cast<double>();
+    double nearest = settings.distance_max;
+    for (const auto& [label, capsule, box] : claims) {
+      if (!box.contains(point)) continue;
+      const double distance = std::abs(axis_distance(capsule, point) - capsule.radius);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      labels[i] = label;
+    }
+  }
+  return labels;
+}
+
+std::vector<std::int32_t> label_points(const PointCloud& cloud, const std::vector<std::size_t>& cropped,
+                                       const std::vector<std::int32_t>& claimed,
+                                       const std::vector<Tube>& tubes, const LabelSettings& settings) {
+  std::vector<std::int32_t> labels(cloud.points.size(), bin_label);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (!cloud.points[i].allFinite()) labels[i] = null_label;
+  }
+  std::vector<std::size_t> rest;
+  for (const std::size_t point : cropped) {
+    labels[point] = claimed[point];
+    if (claimed[point] == null_label) rest.push_back(point);
+  }
+  const std::vector<std::int32_t> nearest = label_by_nearest(cloud, rest, tubes, settings);
+  for (std::size_t i = 0; i < rest.size(); ++i) labels[rest[i]] = nearest[i];
   return labels;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/model/axis_method.hpp"
 #include "tanglebin/model/paper_method.hpp"
 
 namespace tanglebin {
@@ -40,16 +41,20 @@ void validate(const KnownScene& known) {
   validate(known.camera);
   check_positive(known.radius, "radius");
   check_positive(known.length, "length");
+  if (known.junctions < 0)
+    throw InputError({"", 0, "junctions"}, fmt::format("{}", known.junctions), "0 or more");
 }
 
 std::vector<Method> methods() {
-  return {Method::paper};
+  return {Method::paper, Method::axis};
 }
 
 std::string name_of(Method method) {
   switch (method) {
     case Method::paper:
       return "paper";
+    case Method::axis:
+      return "axis";
   }
   return {};
 }
@@ -73,6 +78,8 @@ Model model_tubes(const PointCloud& cloud, const KnownScene& known, Method metho
   switch (method) {
     case Method::paper:
       return model_as_in_paper(cloud, known, ratio, seed).model;
+    case Method::axis:
+      return model_by_axes(cloud, known, ratio, seed).model;
   }
   return {};
 }

@@ -17,7 +17,8 @@ struct KnownScene {
   Bin bin;
   Camera camera;           ///< that took the cloud
   double radius = 0.0125;  ///< m, of every tube
-  double length = 0.5;     ///< m, of every tube, along its centre line
+  double length = 0.5;     ///< m, of every tube, along its centre line, branches included
+  int junctions = 0;       ///< of every tube: 0 for a chain, at most so many for a tree
 };
 
 /// Throws InputError naming the field of a scene that is none: what bin and camera refuse, a radius or length
@@ -43,13 +44,14 @@ struct Model {
 
 /// The ways to model tubes.
 enum class Method {
-  paper,  ///< the paper's, Section 4
+  paper,  ///< the paper's, Section 4; for chains
+  axis,   ///< by votes for the tubes' axes; for chains and trees
 };
 
 /// Every method, in the order in which tables show them.
 std::vector<Method> methods();
 
-/// "paper". The inverse throws InputError for another name.
+/// "paper" or "axis". The inverse throws InputError for another name.
 std::string name_of(Method method);
 Method method_named(const std::string& name);
 

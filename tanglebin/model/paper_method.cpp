@@ -1,31 +1,14 @@
 #include "tanglebin/model/paper_method.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 #include <utility>
 
 #include "tanglebin/model/range_image.hpp"
+#include "tanglebin/model/step_clock.hpp"
 
 namespace tanglebin {
 namespace {
-
-/// Notes the steps as they end.
-class StepClock {
-public:
-  explicit StepClock(std::vector<Step>& steps) : steps_(steps) {}
-
-  void end_step(std::string name, std::size_t count, std::string of) {
-    const auto now = std::chrono::steady_clock::now();
-    steps_.push_back(
-        {std::move(name), std::chrono::duration<double>(now - start_).count(), count, std::move(of)});
-    start_ = now;
-  }
-
-private:
-  std::vector<Step>& steps_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 std::vector<Cylinder> fit_clusters(const OrientedCloud& cloud,
                                    const std::vector<std::vector<std::size_t>>& clusters, double radius,
@@ -37,16 +20,10 @@ std::vector<Cylinder> fit_clusters(const OrientedCloud& cloud,
   return cylinders;
 }
 
-// A point of a cylinder has its tube's label, any other that of the nearest cylinder or joint. What the crop
-// took away is the bin's.
-std::vector<std::int32_t> label_points(const PointCloud& cloud, const std::vector<std::size_t>& cropped,
-                                       const PaperModel& found, const std::vector<JoinedTube>& tubes,
-                                       const LabelSettings& settings) {
-  std::vector<std::int32_t> labels(cloud.points.size(), bin_label);
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (!cloud.points[i].allFinite()) labels[i] = null_label;
-  }
-  for (const std::size_t point : cropped) labels[point] = null_label;
+// The points that the cylinders of each tube were fitted to are that tube's.
+std::vector<std::int32_t> claimed_points(std::size_t points, const PaperModel& found,
+                                         const std::vector<JoinedTube>& tubes) {
+  std::vector<std::int32_t> labels(points, null_label);
   for (const JoinedTube& joined : tubes) {
     for (const std::size_t cylinder : joined.cylinders) {
       for (const std::size_t point : found.cylinders[cylinder].points) {
@@ -54,11 +31,6 @@ std::vector<std::int32_t> label_points(const PointCloud& cloud, const std::vecto
       }
     }
   }
-  std::vector<std::size_t> rest;
-  std::ranges::copy_if(cropped, std::back_inserter(rest),
-                       [&](std::size_t point) { return labels[point] == null_label; });
-  const std::vector<std::int32_t> nearest = label_by_nearest(cloud, rest, found.model.tubes, settings);
-  for (std::size_t i = 0; i < rest.size(); ++i) labels[rest[i]] = nearest[i];
   return labels;
 }
 
@@ -92,7 +64,8 @@ PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, d
   clock.end_step("join", model.tubes.size(), "tubes");
 
   // "In order to prepare the labeled point cloud, …"
-  model.labels = label_points(cloud, cropped, result, tubes, settings.label);
+  model.labels = label_points(cloud, cropped, claimed_points(cloud.points.size(), result, tubes), model.tubes,
+                              settings.label);
   clock.end_step("label",
                  static_cast<std::size_t>(std::ranges::count_if(
                      model.labels, [](std::int32_t label) { return label > bin_label; })),

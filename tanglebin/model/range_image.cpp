@@ -53,4 +53,23 @@ bool RangeImage::hides(const Eigen::Vector3d& first, const Eigen::Vector3d& seco
   return false;
 }
 
+bool RangeImage::shows_empty(const Eigen::Vector3d& axis, double radius) const {
+  const std::optional<Eigen::Vector2d> image = project(camera_, axis);
+  if (!image) return false;
+  const double depth = depth_of(camera_, axis);
+  const int window = std::max(1, static_cast<int>(radius * camera_.fx / depth / 3));
+  const Eigen::Vector2d pixel = image->array().round();
+  const int column = static_cast<int>(pixel.x());
+  const int row = static_cast<int>(pixel.y());
+  float nearest = std::numeric_limits<float>::infinity();
+  for (int v = std::max(0, row - window); v <= std::min(camera_.height - 1, row + window); ++v) {
+    for (int u = std::max(0, column - window); u <= std::min(camera_.width - 1, column + window); ++u) {
+      nearest =
+          std::min(nearest, depths_[static_cast<std::size_t>(v) * static_cast<std::size_t>(camera_.width) +
+                                    static_cast<std::size_t>(u)]);
+    }
+  }
+  return std::isfinite(nearest) && nearest > depth - radius / 2;
+}
+
 }  // namespace tanglebin

@@ -28,6 +28,22 @@ PointCloud clusters_of(const PaperModel& steps) {
   return cloud;
 }
 
+PointCloud fragments_of(const AxisModel& steps) {
+  std::vector<std::int32_t> fragment_of(steps.votes.votes.size(), null_label);
+  for (std::size_t i = 0; i < steps.fragments.size(); ++i) {
+    for (const std::size_t point : steps.fragments[i].points)
+      fragment_of[point] = static_cast<std::int32_t>(i) + 1;
+  }
+  PointCloud cloud;
+  for (std::size_t i = 0; i < steps.votes.votes.size(); ++i) {
+    if (!steps.votes.votes[i].allFinite()) continue;
+    cloud.points.push_back(steps.votes.votes[i]);
+    cloud.labels.push_back(fragment_of[i]);
+  }
+  cloud.width = cloud.points.size();
+  return cloud;
+}
+
 // What is labelled as the bin is left out.
 PointCloud labelled_of(const PointCloud& cloud, const Model& model) {
   PointCloud labelled;
@@ -55,6 +71,21 @@ std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const Paper
   pictures.push_back({"3-fitted", picture_of_tubes(cylinders, bin, view, name)});
   pictures.push_back({"4-joined", picture_of_tubes(steps.model.tubes, bin, view, name)});
   pictures.push_back({"5-labelled", picture_of_cloud(labelled_of(cloud, steps.model), view, name)});
+  return pictures;
+}
+
+std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const AxisModel& steps, const Bin& bin,
+                                            const std::string& name) {
+  std::vector<NamedPicture> pictures;
+  if (steps.fragments.empty()) return pictures;
+  const View view = nearly_from_above();
+  std::vector<Eigen::Vector3f> filtered;
+  filtered.reserve(steps.model.filtered.size());
+  for (const std::size_t point : steps.model.filtered) filtered.push_back(cloud.points[point]);
+  pictures.push_back({"1-filtered", picture_of_cloud(cloud_of(filtered), view, name)});
+  pictures.push_back({"2-votes", picture_of_cloud(fragments_of(steps), view, name)});
+  pictures.push_back({"3-joined", picture_of_tubes(steps.model.tubes, bin, view, name)});
+  pictures.push_back({"4-labelled", picture_of_cloud(labelled_of(cloud, steps.model), view, name)});
   return pictures;
 }
 

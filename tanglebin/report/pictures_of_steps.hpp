@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
+#include "tanglebin/model/axis_method.hpp"
 #include "tanglebin/model/paper_method.hpp"
 #include "tanglebin/report/shading.hpp"
 
@@ -21,5 +22,10 @@ struct NamedPicture {
 /// left nothing has no picture. `cloud` is what was modelled; `name` is for messages.
 std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const PaperModel& steps, const Bin& bin,
                                             double radius, const std::string& name);
+
+/// The same of the axis method: "1-filtered", "2-votes" a colour for each fragment and black for votes in
+/// none, "3-joined" and "4-labelled".
+std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const AxisModel& steps, const Bin& bin,
+                                            const std::string& name);
 
 }  // namespace tanglebin

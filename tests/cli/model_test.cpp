@@ -126,7 +126,7 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
   write("mm.ply", ply_of(millimetres));
   const std::vector<std::pair<ProgramResult, std::string>> refusals = {
       {model("mm.ply", ""), "millimetres?"},
-      {model("scan.ply", "--method magic"), "method: found \"magic\", expected paper"},
+      {model("scan.ply", "--method magic"), "method: found \"magic\", expected paper, axis"},
       {model("scan.ply", "--downsample 0"), "downsample: found 0, expected"},
       {model("scan.ply", "--radius -1"), "radius: found -1, expected a positive number"},
       {model("scan.ply", "--bin bucket"), "bucket"},

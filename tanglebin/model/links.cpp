@@ -1,0 +1,317 @@
+#include "tanglebin/model/links.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "tanglebin/model/matching.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+
+double angle_between(const Vector3d& first, const Vector3d& second) {
+  return std::atan2(first.cross(second).norm(), first.dot(second));
+}
+
+constexpr double shortest = 0.002;  // m
+
+LinkFeatures features_of(const FragmentEnd& first, const FragmentEnd& second, double radius) {
+  const Vector3d way = second.position - first.position;
+  const Vector3d inward = -second.outward;
+  const double gap = way.norm();
+  const double turn = angle_between(first.outward, inward);
+  const double alpha = gap < radius ? turn : angle_between(first.outward, way) + angle_between(inward, way);
+  return {1, std::log(gap + shortest), gap, alpha, alpha * alpha, turn};
+}
+
+LinkFeatures features_of(const FragmentEnd& end, const Vector3d& junction) {
+  const Vector3d way = junction - end.position;
+  const double gap = way.norm();
+  const double alpha = angle_between(end.outward, way);
+  return {1, std::log(gap + shortest), gap, alpha, alpha * alpha, 0};
+}
+
+double angle_of(const LinkFeatures& features) {
+  constexpr std::size_t alpha = 3;
+  return features[alpha];
+}
+
+double log_odds(const Link& link, const KnownScene& known) {
+  const LinkFeatures& weights = !link.to.end          ? link_weights.junction
+                                : known.junctions > 0 ? link_weights.tree_ends
+                                                      : link_weights.chain_ends;
+  return std::inner_product(weights.begin(), weights.end(), link.features.begin(), 0.0);
+}
+double weight_of(const Link& link, const KnownScene& known, const LinkSettings& settings) {
+  const double prior = !link.to.end          ? settings.junction_prior
+                       : known.junctions > 0 ? settings.tree_prior
+                                             : settings.chain_prior;
+  return log_odds(link, known) + prior;
+}
+
+// The cubic Hermite curve from one end to the other, at t in [0, 1].
+Vector3d on_curve(const FragmentEnd& first, const FragmentEnd& second, double t) {
+  const double gap = (second.position - first.position).norm();
+  const double s = 1 - t;
+  return (1 + 2 * t) * s * s * first.position + t * s * s * gap * first.outward +
+         t * t * (3 - 2 * t) * second.position + t * t * s * gap * second.outward;
+}
+
+// The share of the way between two ends on which the sensor saw past a tube, straight or curved, whichever is
+// hidden better.
+double share_seen_empty(const FragmentEnd& first, const FragmentEnd& second, const RangeImage& seen,
+                        double radius) {
+  const Vector3d way = second.position - first.position;
+  constexpr double step = 0.4;  // radii
+  const int samples = std::max(1, static_cast<int>(way.norm() / (step * radius)) - 1);
+  int straight = 0;
+  int curved = 0;
+  for (int i = 1; i <= samples; ++i) {
+    const double t = static_cast<double>(i) / (samples + 1);
+    if (seen.shows_empty(first.position + t * way, radius)) ++straight;
+    if (seen.shows_empty(on_curve(first, second, t), radius)) ++curved;
+  }
+  return static_cast<double>(std::min(straight, curved)) / samples;
+}
+
+/// Disjoint sets of fragments.
+class DisjointSets {
+public:
+  explicit DisjointSets(std::size_t fragments) : parents_(fragments) {
+    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+  }
+
+  std::size_t of(std::size_t fragment) {
+    while (parents_[fragment] != fragment) {
+      parents_[fragment] = parents_[parents_[fragment]];
+      fragment = parents_[fragment];
+    }
+    return fragment;
+  }
+
+  void unite(std::size_t first, std::size_t second) {
+    first = of(first);
+    second = of(second);
+    parents_[std::max(first, second)] = std::min(first, second);
+  }
+
+private:
+  std::vector<std::size_t> parents_;
+};
+
+/// The tubes that links make of fragments.
+class Tubes {
+public:
+  Tubes(const std::vector<Fragment>& fragments, const KnownScene& known, const LinkSettings& settings)
+      : sets_(fragments.size()),
+        length_max_(known.length * (1 + settings.length_tolerance)),
+        ends_max_(static_cast<std::size_t>(known.junctions) + 2) {
+    for (const Fragment& fragment : fragments) {
+      lengths_.push_back(fragment.length);
+      ends_.push_back(fragment.ends.size());
+    }
+  }
+
+  // Whether a link leaves the tube open, no longer than known, and with no more ends than its junctions give
+  // it.
+  bool allow(const Link& link) {
+    const std::size_t first = sets_.of(link.fragment);
+    const std::size_t second = sets_.of(link.to.fragment);
+    return first != second && lengths_[first] + link.gap + lengths_[second] <= length_max_ &&
+           ends_[first] + ends_[second] <= ends_max_ + ends_used(link);
+  }
+
+  void join(const Link& link) {
+    const std::size_t first = sets_.of(link.fragment);
+    const std::size_t second = sets_.of(link.to.fragment);
+    const double length = lengths_[first] + link.gap + lengths_[second];
+    const std::size_t ends = ends_[first] + ends_[second] - ends_used(link);
+    sets_.unite(first, second);
+    lengths_[sets_.of(first)] = length;
+    ends_[sets_.of(first)] = ends;
+  }
+
+private:
+  static std::size_t ends_used(const Link& link) { return link.to.end ? 2 : 1; }
+
+  DisjointSets sets_;
+  double length_max_;
+  std::size_t ends_max_;
+  // Of the tube that a set stands for.
+  std::vector<double> lengths_;
+  std::vector<std::size_t> ends_;
+};
+
+// Adds links, the heaviest first, as long as ends are free and the tubes possible.
+void add_heaviest(std::vector<std::size_t>& chosen, const std::vector<Fragment>& fragments,
+                  const std::vector<Link>& links, const std::vector<WeightedPair>& pairs,
+                  std::size_t vertices, const KnownScene& known, const LinkSettings& settings) {
+  Tubes tubes(fragments, known, settings);
+  std::vector<bool> taken(vertices);
+  const auto take = [&](std::size_t i) {
+    taken[pairs[i].first] = taken[pairs[i].second] = true;
+    tubes.join(links[i]);
+  };
+  std::ranges::for_each(chosen, take);
+  std::vector<std::size_t> order(links.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return pairs[i].weight; });
+  for (const std::size_t i : order) {
+    if (taken[pairs[i].first] || taken[pairs[i].second] || !tubes.allow(links[i])) continue;
+    take(i);
+    chosen.push_back(i);
+  }
+  std::ranges::sort(chosen);
+}
+
+// The links that make one of the tubes impossible: of each such tube the weakest. They are found by taking
+// the links of the matching one after the other, the heaviest first.
+std::vector<std::size_t> impossible_links(const std::vector<std::size_t>& matching,
+                                          const std::vector<Fragment>& fragments,
+                                          const std::vector<Link>& links,
+                                          const std::vector<WeightedPair>& pairs, const KnownScene& known,
+                                          const LinkSettings& settings) {
+  std::vector<std::size_t> order = matching;
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return pairs[i].weight; });
+  Tubes tubes(fragments, known, settings);
+  std::vector<std::size_t> impossible;
+  for (const std::size_t i : order) {
+    if (tubes.allow(links[i])) {
+      tubes.join(links[i]);
+    } else {
+      impossible.push_back(i);
+    }
+  }
+  return impossible;
+}
+
+// A matching of greatest weight between the ends in which every tube is possible: what makes one impossible
+// is given up, and the rest matched again.
+std::vector<std::size_t> possible_matching(const std::vector<Fragment>& fragments,
+                                           const std::vector<Link>& links, std::vector<WeightedPair> pairs,
+                                           std::size_t vertices, const KnownScene& known,
+                                           const LinkSettings& settings) {
+  for (;;) {
+    std::vector<std::size_t> matching = heaviest_matching(vertices, pairs);
+    const std::vector<std::size_t> impossible =
+        impossible_links(matching, fragments, links, pairs, known, settings);
+    if (impossible.empty()) return matching;
+    for (const std::size_t i : impossible) pairs[i].weight = 0;
+  }
+}
+
+/// Finds links between two fragments.
+class LinkFinder {
+public:
+  LinkFinder(const std::vector<Fragment>& fragments, const RangeImage& seen, const KnownScene& known,
+             const LinkSettings& settings)
+      : fragments_(fragments), seen_(seen), known_(known), settings_(settings) {}
+
+  void between_ends(std::size_t first, std::size_t second) {
+    const Fragment& f = fragments_[first];
+    const Fragment& g = fragments_[second];
+    for (std::size_t i = 0; i < f.ends.size(); ++i) {
+      for (std::size_t j = 0; j < g.ends.size(); ++j) {
+        const double gap = (g.ends[j].position - f.ends[i].position).norm();
+        if (!may_span(gap, f, g)) continue;
+        take_if_likely(
+            {first, i, {second, g.ends[j].node, j}, gap, features_of(f.ends[i], g.ends[j], known_.radius)},
+            f.ends[i], g.ends[j]);
+      }
+    }
+  }
+
+  // To the other fragment's node of the least cost, as the paper's method weighs joins (Section 4).
+  void to_junction(std::size_t first, std::size_t second) {
+    const Fragment& f = fragments_[first];
+    const Fragment& g = fragments_[second];
+    const double metres_for_a_radian = settings_.gap_max / settings_.angle_max;
+    for (std::size_t i = 0; i < f.ends.size(); ++i) {
+      const auto cost = [&](const Vector3d& node) {
+        const Vector3d way = node - f.ends[i].position;
+        return way.norm() + metres_for_a_radian * angle_between(f.ends[i].outward, way);
+      };
+      const auto cheapest = std::ranges::min_element(g.nodes, {}, cost);
+      const double gap = (*cheapest - f.ends[i].position).norm();
+      if (!may_span(gap, f, g)) continue;
+      const auto node = static_cast<std::size_t>(cheapest - g.nodes.begin());
+      take_if_likely({first, i, {second, node, std::nullopt}, gap, features_of(f.ends[i], *cheapest)},
+                     f.ends[i], {node, *cheapest, (f.ends[i].position - *cheapest).normalized()});
+    }
+  }
+
+  std::vector<Link> found() { return std::move(links_); }
+
+private:
+  bool may_span(double gap, const Fragment& first, const Fragment& second) const {
+    return gap <= settings_.gap_max &&
+           first.length + gap + second.length <= known_.length * (1 + settings_.length_tolerance);
+  }
+
+  void take_if_likely(const Link& link, const FragmentEnd& from, const FragmentEnd& to) {
+    if (angle_of(link.features) > settings_.angle_max || weight_of(link, known_, settings_) <= 0) return;
+    if (share_seen_empty(from, to, seen_, known_.radius) > settings_.seen_empty_max) return;
+    links_.push_back(link);
+  }
+
+  const std::vector<Fragment>& fragments_;
+  const RangeImage& seen_;
+  const KnownScene& known_;
+  const LinkSettings& settings_;
+  std::vector<Link> links_;
+};
+
+}  // namespace
+
+std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
+                             const KnownScene& known, const LinkSettings& settings) {
+  LinkFinder finder(fragments, seen, known, settings);
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    for (std::size_t j = 0; j < fragments.size(); ++j) {
+      if (i < j) finder.between_ends(i, j);
+      if (i != j && known.junctions > 0) finder.to_junction(i, j);
+    }
+  }
+  return finder.found();
+}
+
+std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
+                                      const KnownScene& known, const LinkSettings& settings) {
+  // The graph has a vertex for each end, and one more that stands for the junction that the end may lead to.
+  std::vector<std::size_t> ends_before{0};
+  for (const Fragment& fragment : fragments) ends_before.push_back(ends_before.back() + fragment.ends.size());
+  const std::size_t ends = ends_before.back();
+  std::vector<WeightedPair> pairs;
+  pairs.reserve(links.size());
+  for (const Link& link : links) {
+    const std::size_t from = ends_before[link.fragment] + link.end;
+    const std::size_t to = link.to.end ? ends_before[link.to.fragment] + *link.to.end : ends + from;
+    pairs.push_back({from, to, weight_of(link, known, settings)});
+  }
+  // Three ends meet at a junction: a matching, which pairs them, finds chains only.
+  const std::size_t vertices = 2 * ends;
+  std::vector<std::size_t> chosen;
+  if (known.junctions == 0) chosen = possible_matching(fragments, links, pairs, vertices, known, settings);
+  add_heaviest(chosen, fragments, links, pairs, vertices, known, settings);
+  return chosen;
+}
+
+std::vector<std::vector<std::size_t>> linked_fragments(std::size_t fragments, const std::vector<Link>& links,
+                                                       const std::vector<std::size_t>& chosen) {
+  DisjointSets tubes(fragments);
+  for (const std::size_t i : chosen) tubes.unite(links[i].fragment, links[i].to.fragment);
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t i = 0; i < fragments; ++i) members[tubes.of(i)].push_back(i);
+  std::vector<std::vector<std::size_t>> result;
+  result.reserve(members.size());
+  for (auto& [tube, list] : members) result.push_back(std::move(list));
+  return result;
+}
+
+}  // namespace tanglebin

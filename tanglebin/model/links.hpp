@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "tanglebin/model/fragments.hpp"
+#include "tanglebin/model/model.hpp"
+#include "tanglebin/model/range_image.hpp"
+
+namespace tanglebin {
+
+/// What a link is judged by. For two ends: with p and q the ends, d1 and d2 the ways out of the first and
+/// into the second, v = q − p, and α = angle(d1, v) + angle(d2, v) as in the paper's Section 4, or angle(d1,
+/// d2) where the ends are nearer than a radius: 1, ln(|v| + 2 mm), |v|, α, α², angle(d1, d2). For an end and
+/// a junction at q: α = angle(d1, v), and 0 for the last.
+inline constexpr std::size_t link_features = 6;
+using LinkFeatures = std::array<double, link_features>;
+
+/// The logarithm of the odds of a link is the sum of its features times these. Learned by logistic
+/// regression: docs/algorithm.md says from what, and by which command.
+struct LinkWeights {
+  LinkFeatures chain_ends;  ///< between two ends of chains
+  LinkFeatures tree_ends;   ///< between two ends of trees
+  LinkFeatures junction;    ///< from an end to a junction
+};
+inline constexpr LinkWeights link_weights = {
+    .chain_ends = {-19.9917, -7.2194, 23.7816, -3.4172, -2.3707, 4.1290},
+    .tree_ends = {-3.7887, -2.2487, -17.0215, -4.7923, -0.0951, 3.5297},
+    .junction = {-7.5528, -3.1089, -6.1710, -5.9807, 1.4693, 0.0000},
+};
+
+struct LinkSettings {
+  double gap_max = 0.36;           ///< m, between two ends
+  double angle_max = 3.2;          ///< rad, α
+  double length_tolerance = 0.03;  ///< of the known length, by which a tube may be too long
+  double seen_empty_max = 0.25;    ///< share of the way between two ends that may be seen to be empty
+  // Added to the log odds, since a fragment is more often a part of a tube than one by itself.
+  double chain_prior = 9.0;
+  double tree_prior = 6.0;
+  double junction_prior = 3.0;
+};
+
+/// Where a link leads to.
+struct LinkTarget {
+  std::size_t fragment;
+  std::size_t node;                ///< index into Fragment::nodes
+  std::optional<std::size_t> end;  ///< index into Fragment::ends; none for a junction
+};
+
+/// An end of a fragment, and what may be next on its tube: an end of another fragment, or a junction in the
+/// middle of one.
+struct Link {
+  std::size_t fragment;
+  std::size_t end;  ///< index into Fragment::ends
+  LinkTarget to;
+  double gap;  ///< m, in between
+  LinkFeatures features;
+};
+
+/// The links that there may be between fragments of tubes of the known radius, length and number of
+/// junctions: no gap wider, no turn sharper, no tube longer than the settings allow, and the space between
+/// was not seen to be empty. Where there may be junctions, of each end and other fragment the likeliest.
+std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
+                             const KnownScene& known, const LinkSettings& settings);
+
+/// The links that together are the likeliest, with which every tube is open, no longer than known, and has no
+/// more junctions: for chains a matching of greatest weight between the ends, for trees the heaviest links
+/// one after the other. Indices, ascending.
+std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
+                                      const KnownScene& known, const LinkSettings& settings);
+
+/// The fragments of each tube that the chosen links make, in ascending order.
+std::vector<std::vector<std::size_t>> linked_fragments(std::size_t fragments, const std::vector<Link>& links,
+                                                       const std::vector<std::size_t>& chosen);
+
+}  // namespace tanglebin
