@@ -19,7 +19,7 @@
 #include "tanglebin/cloud/ply.hpp"
 #include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/dataset/images.hpp"
-#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/dataset/recipe.hpp"
 #include "tanglebin/scan/scanner.hpp"
 #include "tanglebin/settle/bin.hpp"
 
@@ -31,6 +31,8 @@ struct ScanArguments {
   std::string out;
   std::string bin = "paper";
   std::string scanner = "paper";
+  std::vector<std::string> settings;
+  std::string seed = "0";
   bool with_bin = false;
   std::optional<std::string> depth;
   std::optional<std::string> labels;
@@ -77,7 +79,9 @@ void print_summary(const ScanArguments& arguments, const Scan& view, const std::
 void scan_configuration(const ScanArguments& arguments) {
   const std::vector<Tube> tubes =
       read_input(arguments.configuration, [](auto&&... from) { return read_configuration(from...); });
-  const Scan view = scan(tubes, bin_preset(arguments.bin), camera_preset(arguments.scanner));
+  const Scanner scanner = scanner_with(arguments.scanner, arguments.settings, "--set");
+  const Scan view = scan(tubes, bin_preset(arguments.bin), scanner.camera, scanner.sensor,
+                         parse_hexadecimal(arguments.seed, "--seed"));
   write_output(arguments.out, cloud_bytes(arguments, view, largest_id(tubes)));
   if (arguments.depth) {
     write_output(*arguments.depth, depth_png(view));
@@ -102,7 +106,18 @@ void add_scan(CLI::App& app) {
       ->required();
   command->add_option("--bin", arguments->bin, "Bin that the tubes lie in: paper or published")
       ->capture_default_str();
-  command->add_option("--scanner", arguments->scanner, "Camera: paper or zivid-one-plus-l")
+  command
+      ->add_option("--scanner", arguments->scanner,
+                   "Scanner: paper, which is ideal, gaussian, zivid-one-plus-l or kinect-v1")
+      ->capture_default_str();
+  command
+      ->add_option("--set", arguments->settings,
+                   "A setting of the scanner in place of its own, such as scanner.baseline=0.3")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--seed", arguments->seed,
+                   "What a scanner's noise follows from: a seed as a manifest has it, hexadecimal")
       ->capture_default_str();
   command->add_flag("--with-bin", arguments->with_bin, "Give the bin's points too, label 0");
   command->add_option("--depth", arguments->depth,
@@ -111,7 +126,8 @@ void add_scan(CLI::App& app) {
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin scan dataset/A10/tube_configurations/1.txt --out cloud.ply --with-bin\n"
-      "Formats: docs/formats.md.");
+      "  tanglebin scan dataset/A10/tube_configurations/1.txt --out cloud.ply --scanner zivid-one-plus-l\n"
+      "Formats: docs/formats.md. Scanners and their settings: docs/sensor.md.");
   command->callback([arguments] { scan_configuration(*arguments); });
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -17,6 +18,7 @@
 #include <tuple>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/excerpt.hpp"
 #include "tanglebin/dataset/toml_table.hpp"
 
 namespace tanglebin {
@@ -54,6 +56,32 @@ constexpr std::tuple camera_lens_fields{
     Field{"fy", &Camera::fy},
     Field{"cx", &Camera::cx},
     Field{"cy", &Camera::cy},
+};
+constexpr std::tuple sensor_fields{
+    Field{"sigma", &Sensor::sigma},
+    Field{"dropout", &Sensor::dropout},
+    Field{"edges", &Sensor::edges},
+    Field{"footprint", &Sensor::footprint},
+    Field{"sub_rays", &Sensor::sub_rays},
+    Field{"edge_jump", &Sensor::edge_jump},
+    Field{"shadows", &Sensor::shadows},
+    Field{"baseline", &Sensor::baseline},
+    Field{"working_distance", &Sensor::working_distance},
+    Field{"signal", &Sensor::signal},
+    Field{"snr", &Sensor::snr},
+    Field{"snr_min", &Sensor::snr_min},
+    Field{"snr_max", &Sensor::snr_max},
+    Field{"albedo_min", &Sensor::albedo_min},
+    Field{"albedo_max", &Sensor::albedo_max},
+    Field{"gloss_min", &Sensor::gloss_min},
+    Field{"gloss_max", &Sensor::gloss_max},
+    Field{"shininess", &Sensor::shininess},
+    Field{"bin_albedo", &Sensor::bin_albedo},
+    Field{"bin_gloss", &Sensor::bin_gloss},
+    Field{"disparity_sigma", &Sensor::disparity_sigma},
+    Field{"trueness", &Sensor::trueness},
+    Field{"trueness_length", &Sensor::trueness_length},
+    Field{"kinect_noise", &Sensor::kinect_noise},
 };
 constexpr std::tuple settle_fields{
     Field{"gravity", &SettleSettings::gravity},
@@ -98,6 +126,13 @@ constexpr std::tuple segment_fields{
     AngleField{"bend_min_deg", &Segment::bend_min},
     AngleField{"bend_max_deg", &Segment::bend_max},
 };
+
+struct EdgesName {
+  Edges edges;
+  std::string_view name;
+};
+constexpr std::array<EdgesName, 3> edges_names{
+    {{Edges::keep, "keep"}, {Edges::drop, "drop"}, {Edges::mix, "mix"}}};
 
 using Keys = std::vector<std::string_view>;
 
@@ -155,6 +190,16 @@ auto with_place(const std::string& file, std::size_t line, Call call) {
 template <typename Struct, typename Value>
 void read_field(const TomlTable& table, const Field<Struct, Value>& field, Struct& values) {
   table.get(field.key, values.*field.member);
+}
+
+template <typename Struct>
+void read_field(const TomlTable& table, const Field<Struct, Edges>& field, Struct& values) {
+  if (!table.has(field.key)) return;
+  std::string name;
+  table.get(field.key, name);
+  const auto known = std::ranges::find(edges_names, name, &EdgesName::name);
+  if (known == edges_names.end()) table.fail(field.key, excerpt(name), "\"keep\", \"drop\" or \"mix\"");
+  values.*field.member = known->edges;
 }
 
 template <typename Struct>
@@ -222,10 +267,11 @@ void read_pose(const TomlTable& table, Camera& camera) {
   camera.pose.linear() = rotation;
 }
 
-Camera read_scanner(const TomlTable& table) {
+Scanner read_scanner(const TomlTable& table) {
   table.allow(all({{"preset", "hfov_deg", "focal_length_px", "position", "rotation_wxyz", "rotation_matrix"},
                    keys(camera_size_fields),
-                   keys(camera_lens_fields)}));
+                   keys(camera_lens_fields),
+                   keys(sensor_fields)}));
   std::string name = "paper";
   table.get("preset", name);
   const Camera preset = with_place(table.file(), table.line("preset"), [&] { return camera_preset(name); });
@@ -233,7 +279,9 @@ Camera read_scanner(const TomlTable& table) {
   read_fields(table, camera_size_fields, camera);
   read_lens(table, camera, preset);
   read_pose(table, camera);
-  return camera;
+  Sensor sensor = sensor_preset(name);
+  read_fields(table, sensor_fields, sensor);
+  return {camera, sensor};
 }
 
 template <typename Struct, typename... Fields>
@@ -288,7 +336,9 @@ Recipe read_root(const TomlTable& root) {
   root.get("seed", recipe.seed);
   root.get("attempts", recipe.attempts);
   recipe.bin = read_bin(root.table("bin"));
-  recipe.camera = read_scanner(root.table("scanner"));
+  const Scanner scanner = read_scanner(root.table("scanner"));
+  recipe.camera = scanner.camera;
+  recipe.sensor = scanner.sensor;
   recipe.settle = read_settings<SettleSettings>(root.table("settle"), settle_fields);
   recipe.output = read_settings<OutputSettings>(root.table("output"), output_fields);
   for (const TomlTable& set : root.tables("set")) recipe.sets.push_back(read_set(set));
@@ -329,6 +379,26 @@ std::size_t line_of(const toml::table& root, std::string field) {
   return 0;
 }
 
+// Calls `call`, which validates what was read; an error of its gets the line that it is about.
+template <typename Call>
+void validate_at(const std::string& name, const toml::table& root, Call call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    throw InputError({name, line_of(root, error.place().field), ""}, error.what());
+  }
+}
+
+// A setting of the command line, key=value, where a string needs no quotation marks.
+std::string toml_line(const std::string& setting) {
+  const std::size_t middle = setting.find('=');
+  if (middle == std::string::npos || middle + 1 == setting.size()) return setting;
+  const std::string value = setting.substr(middle + 1);
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; };
+  const bool is_word = std::ranges::all_of(value, is_letter) && value != "true" && value != "false";
+  return is_word ? fmt::format("{} = \"{}\"", setting.substr(0, middle), value) : setting;
+}
+
 // Writing
 
 std::string value_text(double value) {
@@ -339,6 +409,9 @@ std::string value_text(int value) {
 }
 std::string value_text(bool value) {
   return value ? "true" : "false";
+}
+std::string value_text(Edges value) {
+  return fmt::format("\"{}\"", std::ranges::find(edges_names, value, &EdgesName::edges)->name);
 }
 
 template <typename Vector>
@@ -361,6 +434,11 @@ std::string field_text(const AngleField<Struct>& field, const Struct& values) {
 template <typename Struct, typename... Fields>
 std::string fields_text(const std::tuple<Fields...>& fields, const Struct& values) {
   return std::apply([&](const auto&... field) { return (field_text(field, values) + ...); }, fields);
+}
+
+// An ideal scanner is told by its camera alone.
+std::string sensor_text(const Sensor& sensor) {
+  return is_ideal(sensor) ? "" : fields_text(sensor_fields, sensor);
 }
 
 std::string scanner_text(const Camera& camera) {
@@ -390,16 +468,28 @@ std::string set_text(const SetRecipe& set) {
 
 }  // namespace
 
+Scanner scanner_with(const std::string& preset, const std::vector<std::string>& settings,
+                     const std::string& option) {
+  std::string text;
+  for (const std::string& setting : settings) text += toml_line(setting) + '\n';
+  text += fmt::format("scanner.preset = {:?}\n", preset);
+  const toml::table root = parse(text, option);
+  const TomlTable table(option, root, "");
+  table.allow({"scanner"});
+  const Scanner scanner = read_scanner(table.table("scanner"));
+  validate_at(option, root, [&] {
+    validate(scanner.camera);
+    validate(scanner.sensor);
+  });
+  return scanner;
+}
+
 Recipe read_recipe(std::istream& in, const std::string& name) {
   const std::string text = ascii_text(in);
   if (in.bad()) throw InputError({name, 0, ""}, "cannot be read");
   const toml::table root = parse(text, name);
   Recipe recipe = read_root({name, root, ""});
-  try {
-    validate(recipe);
-  } catch (const InputError& error) {
-    throw InputError({name, line_of(root, error.place().field), ""}, error.what());
-  }
+  validate_at(name, root, [&] { validate(recipe); });
   return recipe;
 }
 
@@ -414,7 +504,7 @@ void write_recipe(std::ostream& out, const Recipe& recipe) {
   out << "# A resolved recipe: every value is here, presets are spelled out.\n"
       << fmt::format("seed = {}\nattempts = {}\n", recipe.seed, recipe.attempts)
       << fmt::format("\n[bin]\n{}", fields_text(bin_fields, recipe.bin))
-      << fmt::format("\n[scanner]\n{}", scanner_text(recipe.camera))
+      << fmt::format("\n[scanner]\n{}", scanner_text(recipe.camera) + sensor_text(recipe.sensor))
       << fmt::format("\n[settle]\n{}", fields_text(settle_fields, recipe.settle))
       << fmt::format("\n[output]\n{}", fields_text(output_fields, recipe.output));
   for (const SetRecipe& set : recipe.sets) out << set_text(set);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tanglebin/scan/camera.hpp"
+#include "tanglebin/scan/sensor.hpp"
 #include "tanglebin/settle/bin.hpp"
 #include "tanglebin/settle/settle.hpp"
 #include "tanglebin/tube/tube_spec.hpp"
@@ -36,6 +37,7 @@ struct Recipe {
   int attempts = 100;  ///< tries at a case before it is given up
   Bin bin;
   Camera camera;
+  Sensor sensor;
   SettleSettings settle;
   OutputSettings output;
   std::vector<SetRecipe> sets;
@@ -50,6 +52,17 @@ void validate(const Recipe& recipe);
 /// key.
 Recipe read_recipe(std::istream& in, const std::string& name);
 Recipe read_recipe(const std::filesystem::path& file);
+
+/// A scanner of a recipe's [scanner].
+struct Scanner {
+  Camera camera;
+  Sensor sensor;
+};
+
+/// Reads settings such as "scanner.sigma=0.0002" over a preset, as a recipe's [scanner] would have them.
+/// Throws InputError naming `option` and the setting.
+Scanner scanner_with(const std::string& preset, const std::vector<std::string>& settings,
+                     const std::string& option);
 
 /// Writes a valid recipe resolved: every value there is, presets spelled out. What read_recipe() gave reads
 /// back bit for bit; an angle set in code that is no double's degrees is written as the nearest one that is.

@@ -117,6 +117,7 @@ void validate(const Recipe& recipe) {
   expect(recipe.attempts >= 1, "attempts", fmt::format("{}", recipe.attempts), "at least 1");
   validate(recipe.bin);
   validate(recipe.camera);
+  validate(recipe.sensor);
   validate(recipe.settle);
   expect(!recipe.sets.empty(), "set", "none", "at least one [[set]]");
   for (std::size_t i = 0; i < recipe.sets.size(); ++i) validate_set(recipe.sets[i], recipe.bin, place(i));

@@ -102,7 +102,7 @@ Scene simulate(const Recipe& recipe, const CaseId& id) {
     round_to_nanometres(heap.tubes);
     Scan view = [&] {
       const Stopwatch watch(times.scan);
-      return scan(heap.tubes, recipe.bin, recipe.camera);
+      return scan(heap.tubes, recipe.bin, recipe.camera, recipe.sensor, seed);
     }();
     return {std::move(heap.tubes), std::move(view),       seed, heap.simulated,
             heap.largest_overlap,  std::move(rejections), times};

@@ -211,6 +211,49 @@ TEST(Recipe, WritesEverySettingThatThereIs) {
   EXPECT_THAT(text, ::testing::Not(HasSubstr("preset =")));
 }
 
+TEST(Recipe, OneWordChoosesBetweenTheIdealScannerAndABelievableOne) {
+  EXPECT_EQ(read(smallest).sensor, Sensor{});
+  EXPECT_EQ(read("[scanner]\npreset = \"paper\"\n" + smallest).sensor, Sensor{});
+  const Recipe zivid = read("[scanner]\npreset = \"zivid-one-plus-l\"\n" + smallest);
+  EXPECT_EQ(zivid.sensor, sensor_preset("zivid-one-plus-l"));
+  EXPECT_EQ(zivid.camera.fx, 2730.0);
+}
+
+TEST(Recipe, SwitchesTheTermsOfAScannerOneByOne) {
+  const Sensor sensor =
+      read("[scanner]\nsigma = 0.0002\ndropout = 0.05\nedges = \"drop\"\nsub_rays = 2\n" + smallest).sensor;
+  EXPECT_EQ(sensor, (Sensor{.sigma = 0.0002, .dropout = 0.05, .edges = Edges::drop, .sub_rays = 2}));
+  Sensor no_shadows = sensor_preset("zivid-one-plus-l");
+  no_shadows.shadows = false;
+  EXPECT_EQ(read("[scanner]\npreset = \"zivid-one-plus-l\"\nshadows = false\n" + smallest).sensor,
+            no_shadows);
+  EXPECT_EQ(complaint("[scanner]\nedges = \"blur\"\n" + smallest),
+            "r.toml:2: scanner.edges: found 'blur', expected \"keep\", \"drop\" or \"mix\"");
+  EXPECT_THAT(complaint("[scanner]\n\nbaseline = 0\n" + smallest),
+              HasSubstr("r.toml:3: scanner.baseline: found 0, expected a positive distance"));
+}
+
+TEST(Recipe, WritesEveryTermOfAScannerThatIsNotIdeal) {
+  const Recipe zivid = read("[scanner]\npreset = \"zivid-one-plus-l\"\nbaseline = 0.3\n" + smallest);
+  const std::string text = write(zivid);
+  EXPECT_EQ(keys(text, "scanner").size(), 8 + settings<Sensor>())
+      << "a setting has no line in sensor_fields (recipe.cpp)";
+  EXPECT_EQ(read(text).sensor, zivid.sensor);
+}
+
+TEST(Recipe, TheCommandLineSetsWhatARecipesScannerHas) {
+  const Scanner scanner = scanner_with("paper", {"scanner.sigma=0.0002", "scanner.edges=drop"}, "--set");
+  EXPECT_EQ(scanner.sensor, (Sensor{.sigma = 0.0002, .edges = Edges::drop}));
+  EXPECT_EQ(scanner.camera.fx, camera_preset("paper").fx);
+  const auto said = [](const std::string& setting) {
+    return test::complaint([&] { scanner_with("paper", {"scanner.sigma=0.0002", setting}, "--set"); });
+  };
+  EXPECT_THAT(said("scanner.baseline=0"), HasSubstr("--set:2: scanner.baseline: found 0"));
+  EXPECT_THAT(said("scanner.focal_length_px=0"), HasSubstr("--set:2: scanner.focal_length_px: found 0"));
+  EXPECT_THAT(said("scanner.basline=0.1"), HasSubstr("did you mean 'baseline'?"));
+  EXPECT_THAT(said("bin.length=1"), HasSubstr("unknown key 'bin'"));
+}
+
 TEST(Recipe, WritesDegreesAsAPersonWould) {
   for (int degrees = 0; degrees <= 180; ++degrees) {
     Recipe recipe = read(smallest);
