@@ -476,7 +476,7 @@ Scanner scanner_with(const std::string& preset, const std::vector<std::string>& 
   const toml::table root = parse(text, option);
   const TomlTable table(option, root, "");
   table.allow({"scanner"});
-  const Scanner scanner = read_scanner(table.table("scanner"));
+  Scanner scanner = read_scanner(table.table("scanner"));
   validate_at(option, root, [&] {
     validate(scanner.camera);
     validate(scanner.sensor);

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
+#include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "tanglebin/base/counter_random.hpp"
@@ -20,9 +21,16 @@ using Eigen::Vector3d;
 
 constexpr double farthest_lateral_shift = 6;  // pixels, of the Kinect's noise
 
-/// What one ray, or all of a footprint's together, saw.
-struct Sight {
+/// What one ray of a footprint met.
+struct Hit {
+  Ray ray;
   double depth;  // m, along the optical axis
+  LabelledHit first;
+};
+
+/// What a pixel saw.
+struct Sight {
+  double depth;
   Vector3d normal;
   double incidence;  // rad
   std::int32_t label;
@@ -68,36 +76,35 @@ std::vector<bool> near_edges(const Scan& ideal, const Sensor& sensor) {
   return near;
 }
 
-/// Goes through an ideal scan tile by tile, and measures each pixel.
+/// Goes through an ideal scan tile by tile, and puts what is measured in each pixel's place.
 class Measurement {
 public:
-  Measurement(const Surfaces& surfaces, const Scan& ideal, const Sensor& sensor, std::uint64_t seed)
+  Measurement(const Surfaces& surfaces, Scan ideal, const Sensor& sensor, std::uint64_t seed)
       : surfaces_(surfaces),
-        ideal_(ideal),
-        camera_(ideal.camera),
+        scan_(std::move(ideal)),
+        camera_(scan_.camera),
         sensor_(sensor),
         optical_axis_(camera_.pose.linear().col(2)),
         illumination_(surfaces, camera_, sensor, seed),
         noise_(sensor, camera_, seed),
         dropout_(seed, static_cast<std::uint64_t>(Term::dropout)),
         lateral_(seed, static_cast<std::uint64_t>(Term::kinect_lateral)) {
-    if (sensor.edges != Edges::keep) near_edge_ = near_edges(ideal, sensor);
-    if (sensor.trueness > 0) trueness_ = trueness_errors(sensor, ideal.window, seed);
+    if (sensor.edges != Edges::keep) near_edge_ = near_edges(scan_, sensor);
+    if (sensor.trueness > 0) trueness_ = trueness_errors(sensor, scan_.window, seed);
     if (traces_rays()) index_.emplace(surfaces, camera_, ray_margin());
   }
 
   Scan run() {
-    result_ = ideal_;
-    result_.snr.resize(ideal_.pixels.size());
-    result_.mixed.resize(ideal_.pixels.size());
-    const PixelWindow& window = ideal_.window;
-    const int size = index_ ? index_->tile_size() : window.width;
+    scan_.snr.resize(scan_.pixels.size());
+    scan_.mixed.resize(scan_.pixels.size());
+    const PixelWindow& window = scan_.window;
+    const int size = index_ ? index_->tile_size() : std::max(window.width, 1);
     for (int top = window.top; top < window.top + window.height; top += size) {
       for (int left = window.left; left < window.left + window.width; left += size) {
         measure_tile(left, top, size);
       }
     }
-    return std::move(result_);
+    return std::move(scan_);
   }
 
 private:
@@ -113,20 +120,20 @@ private:
     tile_left_ = left;
     tile_top_ = top;
     candidates_are_found_ = false;
-    const PixelWindow& window = ideal_.window;
+    const PixelWindow& window = scan_.window;
     for (int v = top; v < std::min(top + size, window.top + window.height); ++v) {
       for (int u = left; u < std::min(left + size, window.left + window.width); ++u) measure_pixel(u, v);
     }
   }
 
   void measure_pixel(int u, int v) {
-    const std::size_t i = ideal_.index(u, v);
+    const std::size_t i = scan_.index(u, v);
     const Vector2d shift = sensor_.kinect_noise ? lateral_shift(u, v) : Vector2d::Zero();
     const std::optional<Sight> sight = see(u, v, i, shift);
     if (sight && is_strong_enough(*sight) && !drops_out(u, v)) {
       record(u, v, i, *sight);
     } else {
-      result_.pixels[i] = empty_pixel();
+      scan_.pixels[i] = empty_pixel();
     }
   }
 
@@ -145,7 +152,7 @@ private:
   }
 
   Vector2d lateral_shift(int u, int v) const {
-    const Pixel& pixel = ideal_.at(u, v);
+    const Pixel& pixel = scan_.at(u, v);
     const double sigma = kinect_lateral_sigma(pixel.label == null_label ? 0 : pixel.incidence);
     const auto along = [&](std::uint64_t axis) {
       return std::clamp(sigma * lateral_.normal(2 * number_of(u, v) + axis), -farthest_lateral_shift,
@@ -156,77 +163,98 @@ private:
 
   std::optional<Sight> see(int u, int v, std::size_t i, const Vector2d& shift) {
     const bool may_be_edge = !near_edge_.empty() && (near_edge_[i] || sensor_.kinect_noise);
-    if (may_be_edge) {
-      see_footprint(u + shift.x(), v + shift.y());
-      if (straddles_edge()) return sensor_.edges == Edges::mix ? std::optional(mixture()) : std::nullopt;
+    if (may_be_edge && straddles_edge(u + shift.x(), v + shift.y())) {
+      return sensor_.edges == Edges::mix ? std::optional(see_mixture(u + shift.x(), v + shift.y()))
+                                         : std::nullopt;
     }
-    return sensor_.kinect_noise ? trace(u + shift.x(), v + shift.y()) : see_ideal(ideal_.pixels[i]);
+    if (!sensor_.kinect_noise) return see_ideal(scan_.pixels[i]);
+    const auto hit = trace(u + shift.x(), v + shift.y());
+    return hit ? std::optional(see_hit(*hit)) : std::nullopt;
   }
 
   std::optional<Sight> see_ideal(const Pixel& pixel) {
     if (pixel.label == null_label) return std::nullopt;
     const Vector3d normal = pixel.normal.cast<double>();
-    const double snr =
-        is_lit_evenly() ? 1 : illumination_.snr(pixel.point.cast<double>(), normal, pixel.label);
-    return Sight{pixel.depth, normal, pixel.incidence, pixel.label, snr, false};
+    return Sight{pixel.depth,
+                 normal,
+                 pixel.incidence,
+                 pixel.label,
+                 snr_at(pixel.point.cast<double>(), normal, pixel.label),
+                 false};
   }
 
-  bool is_lit_evenly() const { return !sensor_.shadows && !sensor_.signal; }
+  Sight see_hit(const Hit& hit) {
+    const Vector3d& normal = hit.first.surface.normal;
+    return {hit.depth, normal, incidence_of(hit.ray, normal), hit.first.label, snr_of(hit), false};
+  }
 
-  std::optional<Sight> trace(double u, double v) {
+  double snr_of(const Hit& hit) {
+    const auto& [range, normal] = hit.first.surface;
+    return snr_at(hit.ray.origin + range * hit.ray.direction, normal, hit.first.label);
+  }
+
+  double snr_at(const Vector3d& point, const Vector3d& normal, std::int32_t label) {
+    const bool is_lit_evenly = !sensor_.shadows && !sensor_.signal;
+    return is_lit_evenly ? 1 : illumination_.snr(point, normal, label);
+  }
+
+  std::optional<Hit> trace(double u, double v) {
     if (!candidates_are_found_) {
       index_->find(tile_left_, tile_top_, candidates_);
       candidates_are_found_ = true;
     }
     const Ray ray = ray_through(camera_, u, v);
-    const auto hit = first_hit(surfaces_, candidates_, ray);
-    if (!hit) return std::nullopt;
-    const auto& [range, normal] = hit->surface;
-    const double snr =
-        is_lit_evenly() ? 1 : illumination_.snr(ray.origin + range * ray.direction, normal, hit->label);
-    return Sight{
-        range * optical_axis_.dot(ray.direction), normal, incidence_of(ray, normal), hit->label, snr, false};
+    const auto first = first_hit(surfaces_, candidates_, ray);
+    if (!first) return std::nullopt;
+    return Hit{ray, first->surface.distance * optical_axis_.dot(ray.direction), *first};
   }
 
-  /// The surfaces that the sub-rays of a footprint meet; their number and those that met nothing.
-  void see_footprint(double u, double v) {
-    footprint_.clear();
-    const int n = sensor_.sub_rays;
-    const double step = sensor_.footprint / n;
-    const double first = (step - sensor_.footprint) / 2;
-    for (int row = 0; row < n; ++row) {
-      for (int column = 0; column < n; ++column) {
-        if (const auto sight = trace(u + first + column * step, v + first + row * step)) {
-          footprint_.push_back(*sight);
-        }
+  /// From a footprint's centre to its outermost sub-rays, in pixels.
+  double outermost() const { return (sensor_.footprint - sensor_.footprint / sensor_.sub_rays) / 2; }
+
+  /// Do the sub-rays in the corners of the footprint meet different surfaces?
+  bool straddles_edge(double u, double v) {
+    const double corner = outermost();
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = -nearest;
+    int hits = 0;
+    for (const double du : {-corner, corner}) {
+      for (const double dv : {-corner, corner}) {
+        const auto hit = trace(u + du, v + dv);
+        if (!hit) continue;
+        ++hits;
+        nearest = std::min(nearest, hit->depth);
+        farthest = std::max(farthest, hit->depth);
       }
     }
+    constexpr int corners = 4;
+    return hits > 0 && (hits < corners || farthest - nearest > sensor_.edge_jump);
   }
 
-  std::size_t rays_of_footprint() const {
-    return static_cast<std::size_t>(sensor_.sub_rays) * static_cast<std::size_t>(sensor_.sub_rays);
-  }
-
-  bool straddles_edge() const {
-    if (footprint_.empty()) return false;
-    if (footprint_.size() < rays_of_footprint()) return true;
-    const auto [nearest, farthest] = std::ranges::minmax_element(footprint_, {}, &Sight::depth);
-    return farthest->depth - nearest->depth > sensor_.edge_jump;
-  }
-
-  /// Of a footprint that straddles an edge: the nearest surface, at the mean depth.
-  Sight mixture() const {
-    Sight mixed = *std::ranges::min_element(footprint_, {}, &Sight::depth);
+  /// The nearest of the surfaces that a footprint's sub-rays meet, at the mean depth of all.
+  Sight see_mixture(double u, double v) {
+    const int n = sensor_.sub_rays;
+    const double step = sensor_.footprint / n;
+    std::optional<Hit> nearest;
     double signal = 0;
     double weighted_depth = 0;
-    for (const Sight& sight : footprint_) {
-      signal += sight.snr;
-      weighted_depth += sight.snr * sight.depth;
+    for (int row = 0; row < n; ++row) {
+      for (int column = 0; column < n; ++column) {
+        const auto hit = trace(u - outermost() + column * step, v - outermost() + row * step);
+        if (!hit) continue;
+        const double snr = snr_of(*hit);
+        signal += snr;
+        weighted_depth += snr * hit->depth;
+        if (!nearest || hit->depth < nearest->depth) nearest = hit;
+      }
     }
-    mixed.snr = signal / static_cast<double>(rays_of_footprint());
-    if (signal > 0) mixed.depth = weighted_depth / signal;
-    mixed.mixed = true;
-    return mixed;
+    const Vector3d& normal = nearest->first.surface.normal;
+    return {signal > 0 ? weighted_depth / signal : nearest->depth,
+            normal,
+            incidence_of(nearest->ray, normal),
+            nearest->first.label,
+            signal / (n * n),
+            true};
   }
 
   void record(int u, int v, std::size_t i, const Sight& sight) {
@@ -236,22 +264,22 @@ private:
     range += noise_.draw(number_of(u, v), sight.depth, sight.incidence, sight.snr, axial_cosine);
     if (!trueness_.empty()) range += trueness_[i];
     if (!(range > 0)) {
-      result_.pixels[i] = empty_pixel();
+      scan_.pixels[i] = empty_pixel();
       return;
     }
-    result_.pixels[i] = {.depth = static_cast<float>(range * axial_cosine),
-                         .range = static_cast<float>(range),
-                         .point = (ray.origin + range * ray.direction).cast<float>(),
-                         .normal = sight.normal.cast<float>(),
-                         .incidence = static_cast<float>(sight.incidence),
-                         .label = sight.label};
-    result_.snr[i] = static_cast<float>(sight.snr);
-    result_.mixed[i] = sight.mixed ? 1 : 0;
+    scan_.pixels[i] = {.depth = static_cast<float>(range * axial_cosine),
+                       .range = static_cast<float>(range),
+                       .point = (ray.origin + range * ray.direction).cast<float>(),
+                       .normal = sight.normal.cast<float>(),
+                       .incidence = static_cast<float>(sight.incidence),
+                       .label = sight.label};
+    scan_.snr[i] = static_cast<float>(sight.snr);
+    scan_.mixed[i] = sight.mixed ? 1 : 0;
   }
 
   const Surfaces& surfaces_;
-  const Scan& ideal_;
-  const Camera& camera_;
+  Scan scan_;
+  Camera camera_;
   const Sensor& sensor_;
   Vector3d optical_axis_;
   Illumination illumination_;
@@ -261,19 +289,17 @@ private:
   std::vector<bool> near_edge_;
   std::vector<float> trueness_;
   std::optional<TileIndex> index_;
-  Scan result_;
 
   int tile_left_ = 0;
   int tile_top_ = 0;
   bool candidates_are_found_ = false;
   Candidates candidates_;
-  std::vector<Sight> footprint_;
 };
 
 }  // namespace
 
-Scan measure(const Surfaces& surfaces, const Scan& ideal, const Sensor& sensor, std::uint64_t seed) {
-  return Measurement(surfaces, ideal, sensor, seed).run();
+Scan measure(const Surfaces& surfaces, Scan ideal, const Sensor& sensor, std::uint64_t seed) {
+  return Measurement(surfaces, std::move(ideal), sensor, seed).run();
 }
 
 }  // namespace tanglebin

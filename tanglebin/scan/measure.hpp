@@ -11,6 +11,6 @@ namespace tanglebin {
 // Internal to the room.
 
 /// What a sensor makes of what an ideal scanner sees.
-Scan measure(const Surfaces& surfaces, const Scan& ideal, const Sensor& sensor, std::uint64_t seed);
+Scan measure(const Surfaces& surfaces, Scan ideal, const Sensor& sensor, std::uint64_t seed);
 
 }  // namespace tanglebin

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "tanglebin/scan/measure.hpp"
 #include "tanglebin/scan/tile_index.hpp"
@@ -60,8 +61,8 @@ Scan scan(const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera, 
           std::uint64_t seed) {
   validate(sensor);
   const Surfaces surfaces = surfaces_of(tubes, bin);
-  const Scan ideal = ideal_scan(surfaces, camera);
-  return is_ideal(sensor) ? ideal : measure(surfaces, ideal, sensor, seed);
+  Scan ideal = ideal_scan(surfaces, camera);
+  return is_ideal(sensor) ? ideal : measure(surfaces, std::move(ideal), sensor, seed);
 }
 
 }  // namespace tanglebin
