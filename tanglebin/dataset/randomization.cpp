@@ -23,6 +23,11 @@ namespace {
 
 constexpr std::array<std::string_view, 3> keys_of_ranges{"min", "max", "one_of"};
 
+// The keys whose values are whole numbers, and are drawn as such.
+constexpr std::array<std::string_view, 9> whole_keys{"width",         "height",         "sub_rays",
+                                                     "iterations",    "iterations_max", "cylinders_min",
+                                                     "cylinders_max", "from",           "to"};
+
 constexpr std::array<std::string_view, 8> lens_keys{"width", "height", "hfov_deg", "focal_length_px",
                                                     "fx",    "fy",     "cx",       "cy"};
 constexpr std::array<std::string_view, 4> pose_keys{"position", "rotation_wxyz", "rotation_matrix",
@@ -73,6 +78,13 @@ std::size_t offset_of(const std::string& text, const toml::source_position& posi
   return line_begin + position.column - 1;
 }
 
+// "bin.height" is a length.
+bool is_whole(std::string_view path) {
+  const std::size_t last = path.rfind('.');
+  return last != std::string_view::npos && holds(whole_keys, path.substr(last + 1)) &&
+         !path.starts_with("bin.");
+}
+
 [[noreturn]] void fail(const RandomNumber& number, const std::string& file, const std::string& found,
                        const std::string& expected) {
   throw InputError({file, number.line, number.path}, found, expected);
@@ -81,6 +93,7 @@ std::size_t offset_of(const std::string& text, const toml::source_position& posi
 double finite_number(const toml::node& node, const RandomNumber& number, const std::string& file) {
   const auto value = node.value<double>();
   if (!value || !std::isfinite(*value)) fail(number, file, "what is no number", "finite numbers");
+  if (number.integer && !node.is_integer()) fail(number, file, fmt::format("{:#}", *value), "whole numbers");
   return *value;
 }
 
@@ -90,7 +103,6 @@ void read_range(const toml::table& range, RandomNumber& number, const std::strin
   }
   number.min = finite_number(*range.get("min"), number, file);
   number.max = finite_number(*range.get("max"), number, file);
-  number.integer = range.get("min")->is_integer() && range.get("max")->is_integer();
   if (!(number.min <= number.max)) {
     fail(number, file, fmt::format("min = {} above max = {}", number.min, number.max), "the two exchanged");
   }
@@ -101,11 +113,8 @@ void read_list(const toml::table& list, RandomNumber& number, const std::string&
   if (values == nullptr || values->empty() || list.size() != 1) {
     fail(number, file, "a table", "{ one_of = [NUMBERS] }, at least one of them");
   }
-  number.integer = true;
-  for (const toml::node& value : *values) {
-    number.one_of.push_back(finite_number(value, number, file));
-    number.integer = number.integer && value.is_integer();
-  }
+  number.one_of.reserve(values->size());
+  for (const toml::node& value : *values) number.one_of.push_back(finite_number(value, number, file));
 }
 
 RandomNumber read_random_number(const std::string& path, const toml::node& node, const std::string& text,
@@ -115,7 +124,7 @@ RandomNumber read_random_number(const std::string& path, const toml::node& node,
                       .line = source.begin.line,
                       .begin = offset_of(text, source.begin),
                       .end = offset_of(text, source.end),
-                      .integer = false,
+                      .integer = is_whole(path),
                       .one_of = {}};
   const toml::table& table = *node.as_table();
   if (table.contains("one_of")) {
@@ -165,12 +174,11 @@ void add_settings(const toml::table& table, const std::string& path, std::vector
   }
 }
 
-/// Says which table each line of a resolved recipe is in.
-class TableOfLine {
+/// Says which table of a resolved recipe comes after which.
+class TableOfHeader {
 public:
-  /// Goes on to the next line; is it a table's header?
-  bool next(const std::string& line) {
-    if (!line.starts_with('[')) return false;
+  /// Goes on to the table of this header.
+  void enter(const std::string& line) {
     const bool is_array = line.starts_with("[[");
     const std::size_t first = is_array ? 2 : 1;
     const std::string name = line.substr(first, line.find(']') - first);
@@ -179,7 +187,6 @@ public:
       std::erase_if(counts_, [&](const auto& entry) { return entry.first.starts_with(name + '.'); });
     }
     path_ = indexed(name);
-    return true;
   }
 
   const std::string& path() const { return path_; }
@@ -203,17 +210,39 @@ private:
   std::string path_;
 };
 
-/// Does a resolved recipe's `key` say what one of the settings says otherwise?
+/// Does a resolved recipe's `key` say what one of the settings, under another key, says otherwise?
 bool is_replaced(std::string_view key, const std::vector<RandomSetting>& settings) {
   const auto any_of = [&](std::initializer_list<std::string_view> keys) {
     return std::ranges::any_of(settings,
                                [&](const RandomSetting& setting) { return holds(keys, setting.key); });
   };
-  if (any_of({key})) return true;
   if (key == "fx" || key == "fy" || key == "cx" || key == "cy") {
     return any_of({"hfov_deg", "focal_length_px", "width", "height"});
   }
   return key == "rotation_matrix" && any_of({"rotation_wxyz", "look_at"});
+}
+
+/// A table of a resolved recipe with settings in place of its own; those that it has not come first.
+std::string section_with(const std::vector<std::string>& lines, const std::vector<RandomSetting>& settings) {
+  const auto key_of = [](const std::string& line) { return line.substr(0, line.find(' ')); };
+  const auto text_of_setting = [](const RandomSetting& setting) {
+    return fmt::format("{} = {}\n", setting.key, setting.value);
+  };
+  std::string first;
+  for (const RandomSetting& setting : settings) {
+    if (std::ranges::find(lines, setting.key, key_of) == lines.end()) first += text_of_setting(setting);
+  }
+  std::string text;
+  for (const std::string& line : lines) {
+    const auto setting = std::ranges::find(settings, key_of(line), &RandomSetting::key);
+    if (setting != settings.end()) {
+      text += text_of_setting(*setting);
+    } else if (!is_replaced(key_of(line), settings)) {
+      text += line + '\n';
+    }
+    if (line.starts_with('[')) text += first;
+  }
+  return text;
 }
 
 }  // namespace
@@ -273,20 +302,24 @@ std::vector<RandomSetting> random_settings(const toml::table& root) {
 
 std::string with_settings(const std::string& resolved, const std::vector<RandomSetting>& settings) {
   std::string text;
-  TableOfLine table;
-  std::vector<RandomSetting> here;  // the settings of the table that the line is in, not yet written
-  std::istringstream lines(resolved);
-  const auto enter_table = [&] {
-    here.clear();
+  TableOfHeader table;
+  std::vector<std::string> section;  // the lines of a table, its header first
+  const auto finish_section = [&] {
+    std::vector<RandomSetting> here;
     std::ranges::copy_if(settings, std::back_inserter(here),
                          [&](const RandomSetting& setting) { return setting.table == table.path(); });
+    text += section_with(section, here);
+    section.clear();
   };
+  std::istringstream lines(resolved);
   for (std::string line; std::getline(lines, line);) {
-    if (!is_replaced(line.substr(0, line.find(' ')), here)) text += line + '\n';
-    if (!table.next(line)) continue;
-    enter_table();
-    for (const RandomSetting& setting : here) text += fmt::format("{} = {}\n", setting.key, setting.value);
+    if (line.starts_with('[')) {
+      finish_section();
+      table.enter(line);
+    }
+    section.push_back(line);
   }
+  finish_section();
   return text;
 }
 

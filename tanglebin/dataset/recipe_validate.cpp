@@ -115,14 +115,25 @@ void validate_number_of_cases(const std::vector<SetRecipe>& sets) {
 constexpr std::array<std::string_view, 6> folders_of_kinds{
     "plys", "pcds", "depths", "labels", "tube_configurations", "gazebo_worlds"};
 
+// An error's field says which scanner's it is.
+void validate_scanner(const Scanner& scanner, const std::string& where) {
+  try {
+    validate(scanner.camera);
+    validate(scanner.sensor);
+  } catch (const InputError& error) {
+    const std::string& field = error.place().field;
+    const std::string problem = std::string(error.what()).substr(field.size() + 2);
+    throw InputError({"", 0, where + field.substr(field.find('.'))}, problem);
+  }
+}
+
 void validate_scanners(const Recipe& recipe) {
   const std::vector<Scanner> all = scanners(recipe);
   std::set<std::string> names;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Scanner& scanner = all[i];
     const std::string where = recipe.scanner_name.empty() ? "scanner" : fmt::format("scanner[{}]", i);
-    validate(scanner.camera);
-    validate(scanner.sensor);
+    validate_scanner(scanner, where);
     if (all.size() == 1 && scanner.name.empty()) return;
     validate_name(scanner.name, where + ".name");
     expect(std::ranges::find(folders_of_kinds, scanner.name) == folders_of_kinds.end(), where + ".name",
