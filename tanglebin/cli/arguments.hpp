@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -32,6 +33,9 @@ struct Range {
 
 /// "3" or "3-7". Throws InputError naming `option` for anything else.
 Range parse_range(std::string_view text, const std::string& option);
+
+/// "1f" is 31. Throws InputError naming `option` for anything but a hexadecimal number of at most 64 bits.
+std::uint64_t parse_hexadecimal(std::string_view text, const std::string& option);
 
 /// Part number `index` of `count`, both from 1.
 struct Shard {

@@ -26,10 +26,14 @@ Dataset read_dataset(const std::filesystem::path& directory);
 /// The cases that are there, in the recipe's order.
 std::vector<CaseId> cases(const Dataset& dataset);
 
+/// The recipe of a case that is there: the dataset's, with the numbers that were drawn for the case as the
+/// manifest has them.
+Recipe recipe_of(const Dataset& dataset, const CaseId& id);
+
 /// A case read back.
 struct CaseData {
   std::string cloud_file;  ///< for messages
-  PointCloud cloud;        ///< with the true labels
+  PointCloud cloud;        ///< of the recipe's first scanner, with the true labels
   std::vector<Tube> tubes;
 };
 
