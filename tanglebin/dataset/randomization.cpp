@@ -127,6 +127,7 @@ RandomNumber read_random_number(const std::string& path, const toml::node& node,
                       .integer = is_whole(path),
                       .one_of = {}};
   const toml::table& table = *node.as_table();
+  if (!table.is_inline()) fail(number, file, "a table", "one in braces: { min = NUMBER, max = NUMBER }");
   if (table.contains("one_of")) {
     read_list(table, number, file);
   } else {

@@ -81,7 +81,7 @@ TEST_F(ScanCommand, SeesLikeARealScannerWhereAsked) {
   const std::string picture = (directory_ / "picture.png").string();
   run_program(command + ideal);
   const auto result =
-      run_program(command + noisy + " --set scanner.dropout=0.5 --set scanner.edges=drop --seed 1f" +
+      run_program(command + noisy + " --set scanner.dropout=0.5 --set scanner.sigma=0.001 --seed 1f" +
                   " --normals --intensities --mixed --picture " + picture);
   EXPECT_EQ(result.status, 0) << result.err;
   const PointCloud cloud = read_ply(noisy);

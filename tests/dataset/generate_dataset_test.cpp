@@ -9,6 +9,7 @@
 
 #include <csignal>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -16,6 +17,7 @@
 #include "small_recipe.hpp"
 #include "tanglebin/cloud/ply.hpp"
 #include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tests/support/complaint.hpp"
@@ -42,6 +44,72 @@ std::map<std::string, std::string> dataset_in(const std::filesystem::path& direc
   auto files = files_below(directory);
   files.erase("times.jsonl");
   return files;
+}
+
+Recipe recipe_of(const std::string& text) {
+  std::istringstream in(text);
+  return read_recipe(in, "r.toml");
+}
+
+const std::string small_set =
+    "[[set]]\nname = \"A\"\ntubes = [2]\ncases = 2\n[set.tube]\nradius = 0.0125\nmass = 0.5\nlength = 0.5\n"
+    "bend_max_deg = 30\n";
+
+TEST(GenerateDataset, SeveralScannersSeeTheSameSceneAndHaveAFolderEach) {
+  const TemporaryDirectory one;
+  const TemporaryDirectory two;
+  const std::string above = "name = \"above\"\nwidth = 240\nheight = 150\n";
+  const Recipe recipe =
+      recipe_of("[[scanner]]\n" + above +
+                "[[scanner]]\nname = \"beside\"\nwidth = 240\nheight = 150\nsigma = 0.001\n"
+                "position = [0.3, 0.8, 1.2]\nlook_at = [0, 0, 0.1]\n[output]\ndepths = true\n" +
+                small_set);
+  generate(recipe, two.path());
+  generate(recipe_of("[scanner]\nwidth = 240\nheight = 150\n[output]\ndepths = true\n" + small_set),
+           one.path());
+
+  auto files = dataset_in(two.path());
+  auto single = dataset_in(one.path());
+  EXPECT_EQ(files.at("A2/tube_configurations/1.txt"), single.at("A2/tube_configurations/1.txt"));
+  EXPECT_EQ(files.at("A2/above/plys/1.ply"), single.at("A2/plys/1.ply"));
+  EXPECT_NE(files.at("A2/beside/plys/1.ply"), files.at("A2/above/plys/1.ply"));
+  EXPECT_TRUE(files.contains("A2/beside/depths/2.json"));
+  std::istringstream manifest(files.at("manifest.jsonl"));
+  std::string line;
+  std::getline(manifest, line);
+  const CaseRecord record = case_record(line, "manifest.jsonl", 1);
+  ASSERT_EQ(record.scanners.size(), 2U);
+  EXPECT_EQ(record.scanners[0].points, record.points);
+  EXPECT_EQ(record.scanners[1].name, "beside");
+  EXPECT_EQ(record.scanners[1].points, read_ply(two / "A2/beside/plys/1.ply").points.size());
+  EXPECT_EQ(record.files.size(), 8U);
+}
+
+TEST(GenerateDataset, NumbersThatAreDrawnStandInTheManifestAndDependOnNoWorker) {
+  const TemporaryDirectory one;
+  const TemporaryDirectory again;
+  const std::string text =
+      "[bin]\nheight = { min = 0.15, max = 0.25 }\n[scanner]\nwidth = 240\nheight = 150\n"
+      "sigma = { min = 0, max = 0.001 }\nposition = [0, 0, { one_of = [1.5, 2.0] }]\n" +
+      small_set;
+  generate(recipe_of(text), one.path());
+  generate(read_recipe(one / "recipe.toml"), again.path(), 2);
+  EXPECT_EQ(dataset_in(one.path()), dataset_in(again.path()));
+
+  const Dataset dataset = read_dataset(one.path());
+  std::set<double> heights;
+  for (const CaseId& id : cases(dataset)) {
+    const CaseRecord& record = dataset.finished.records.at(id);
+    const Recipe recipe = recipe_of(dataset, id);
+    EXPECT_EQ(record.drawn.size(), 3U);
+    EXPECT_EQ(record.drawn[0].path, "bin.height");
+    EXPECT_EQ(recipe.bin.height, record.drawn[0].value);
+    EXPECT_EQ(recipe.sensor.sigma, record.drawn[1].value);
+    EXPECT_EQ(recipe.camera.pose.translation().z(), record.drawn[2].value);
+    heights.insert(recipe.bin.height);
+    EXPECT_FALSE(read_case(dataset, id).cloud.points.empty());
+  }
+  EXPECT_EQ(heights.size(), 2U);
 }
 
 TEST(GenerateDataset, WritesThePublishedLayoutAndAManifestOfIt) {

@@ -128,6 +128,8 @@ TEST(Randomization, SaysWhichRangeIsWrongAndWhatToDo) {
             "r.toml:3: bin.height: found min = 0.3 above max = 0.2, expected the two exchanged");
   EXPECT_THAT(complaint("[bin]\nheight = { min = 0.3 }\n" + sets),
               HasSubstr("r.toml:2: bin.height: found a table, expected { min = NUMBER, max = NUMBER }"));
+  EXPECT_THAT(complaint("[bin]\nheight.min = 0.2\nheight.max = 0.3\n" + sets),
+              HasSubstr("expected one in braces"));
   EXPECT_THAT(complaint("[bin]\nheight = { one_of = [] }\n" + sets), HasSubstr("at least one of them"));
   EXPECT_THAT(complaint("[bin]\nheight = { one_of = [\"high\"] }\n" + sets),
               HasSubstr("found what is no number"));

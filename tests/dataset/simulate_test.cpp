@@ -79,5 +79,20 @@ TEST(Simulate, KnowsOnlyTheRecipesSets) {
   EXPECT_THROW(simulate(small_recipe(), {"B", 1, 1}), InputError);
 }
 
+TEST(Simulate, TheSensorsNoiseFollowsFromTheScenesSeed) {
+  Recipe recipe = test::small_recipe();
+  recipe.sensor.sigma = 0.001;
+  const Scene scene = simulate(recipe, {"A", 3, 1});
+  const Scan again = scan(scene.tubes, recipe.bin, recipe.camera, recipe.sensor, scene.seed);
+  ASSERT_EQ(again.pixels.size(), scene.scan.pixels.size());
+  for (std::size_t i = 0; i < again.pixels.size(); ++i) {
+    EXPECT_EQ(again.pixels[i].label, scene.scan.pixels[i].label);
+    if (again.pixels[i].label == null_label) continue;
+    EXPECT_EQ(again.pixels[i].point, scene.scan.pixels[i].point);
+  }
+  EXPECT_EQ(scan_seed(scene.seed, ""), scene.seed);
+  EXPECT_NE(scan_seed(scene.seed, "left"), scan_seed(scene.seed, "right"));
+}
+
 }  // namespace
 }  // namespace tanglebin
