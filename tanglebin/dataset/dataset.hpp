@@ -26,6 +26,10 @@ Dataset read_dataset(const std::filesystem::path& directory);
 /// The cases that are there, in the recipe's order.
 std::vector<CaseId> cases(const Dataset& dataset);
 
+/// The bytes of a dataset's file. Throws InputError naming the file where it is missing or not the one that
+/// the manifest has the size and the checksum of.
+std::string checked_bytes(const std::filesystem::path& directory, const FileRecord& file);
+
 /// A case read back.
 struct CaseData {
   std::string cloud_file;  ///< for messages

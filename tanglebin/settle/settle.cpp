@@ -101,6 +101,15 @@ Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSetti
   return {std::move(heap), world.time(), overlap, std::move(fault)};
 }
 
+std::string fault_of_heap(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings) {
+  World world(tubes, bin, settings, 0);
+  std::string fault = prove_rest(world, settings.iterations_max, bin, settings);
+  if (fault.empty() && !are_inside_the_bin(world.centres_of_mass(), bin)) {
+    fault = "a centre of mass is outside the bin";
+  }
+  return fault;
+}
+
 void validate(const SettleSettings& settings) {
   const auto require = [](bool good, const char* field, double found, const char* expected) {
     if (good) return;

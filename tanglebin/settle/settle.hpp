@@ -49,6 +49,11 @@ struct Settled {
 Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings,
                std::uint64_t seed);
 
+/// Lays tubes, whose masses are known, where they are and without speed into the bin, and says by what they
+/// are no valid heap; empty where they are one: none of them moves, overlaps or lies outside as settle() does
+/// not let it.
+std::string fault_of_heap(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings);
+
 /// Throws InputError naming the field under `settle` that is out of range.
 void validate(const SettleSettings& settings);
 

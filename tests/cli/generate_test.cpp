@@ -62,7 +62,7 @@ TEST_F(Generate, MakesTheRecipesCasesAndSaysSo) {
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("dataset: 9 cases made in "));
   EXPECT_EQ(result.err, "");  // no progress where standard error is no terminal
-  EXPECT_EQ(files_below(out()).size(), 9 * 3 + 3U);
+  EXPECT_EQ(files_below(out()).size(), 9 * 3 + 4U);
 }
 
 TEST_F(Generate, MakesOnlyTheCasesAskedForAndGoesOnLater) {
