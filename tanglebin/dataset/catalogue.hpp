@@ -17,7 +17,7 @@ namespace tanglebin {
 /// A case that could not be made.
 struct FailedCase {
   CaseId id;
-  std::uint64_t seed;  ///< of its first attempt
+  std::uint64_t seed = 0;  ///< of its first attempt
   std::string reason;
 };
 

@@ -148,7 +148,8 @@ private:
   void record(const TaskFailure& failure) {
     const CaseId& id = missing_[failure.task];
     if (failure.impossible && summary_.progress.found + summary_.progress.made == 0) {
-      throw InputError({}, failure.reason);
+      throw InputError({"", 0, fmt::format("{}/{}", folder_name(id.set, id.tubes), id.number)},
+                       failure.reason);
     }
     const std::uint64_t seed = attempt_seed(request_.recipe.seed, id.set, id.tubes, id.number, 1);
     summary_.failed.push_back({id, seed, failure.reason});

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <string>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
@@ -35,7 +36,8 @@ MadeCase make_case(const Recipe& recipe, const CaseId& id, const CaseWriter& wri
     try {
       return simulate(recipe, id);
     } catch (const InputError& error) {  // no valid scene; the next case may have one
-      throw TaskImpossible(error.what());
+      const std::string name = error.place().field + ": ";
+      throw TaskImpossible(std::string(error.what()).substr(name.size()));
     }
   }();
 

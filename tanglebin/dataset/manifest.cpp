@@ -13,8 +13,9 @@ std::string path_from(const Json& json) {
   auto text = json.get<std::string>();
   const std::filesystem::path path(text);
   const auto is_control = [](unsigned char character) { return character < 0x20 || character == 0x7f; };
-  const bool is_below = path.is_relative() && path.has_filename() && path == path.lexically_normal() &&
-                        *path.begin() != ".." && *path.begin() != ".";
+  const bool is_below = path.is_relative() && path.has_filename() &&
+                        text == path.lexically_normal().string() && *path.begin() != ".." &&
+                        *path.begin() != ".";
   if (!is_below || std::ranges::any_of(text, is_control)) {
     throw Json::other_error::create(501, "path is not below the dataset's directory: " + json.dump(),
                                     nullptr);

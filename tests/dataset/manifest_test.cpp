@@ -1,8 +1,10 @@
 #include "tanglebin/dataset/manifest.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tanglebin/base/error.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
@@ -38,6 +40,19 @@ TEST(Manifest, TimesReadBackAsTheyWere) {
             R"({"set":"A","tubes":10,"case":3,"generate":0.001,"settle":0.25,"scan":0.0125,"write":0.003,)"
             R"("peak_memory":64.5})");
   EXPECT_EQ(to_json(times_record(line, "times.jsonl", 1)), line);
+}
+
+TEST(Manifest, APathThatLeadsOutOfTheDatasetIsAnError) {
+  for (const std::string path : {"/etc/passwd", "../1.ply", "A10/../../1.ply", "A10/./1.ply", "A10/", "", ".",
+                                 "..", "A10/plys/../plys/1.ply", "A10//1.ply", "A10/1\\n.ply"}) {
+    std::string line = to_json(example_record());
+    const std::string good = "A10/plys/3.ply";
+    line.replace(line.find(good), good.size(), path);
+    EXPECT_THAT(test::complaint([&] { case_record(line, "manifest.jsonl", 12); }),
+                testing::AllOf(testing::StartsWith("manifest.jsonl:12: "),
+                               testing::HasSubstr("path is not below the dataset's directory: ")))
+        << path;
+  }
 }
 
 TEST(Manifest, ADamagedLineIsAnErrorThatSaysWhere) {
