@@ -33,9 +33,10 @@ std::optional<DatasetSummary> read_dataset_summary(const std::filesystem::path& 
   if (!in) return std::nullopt;
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   return read_json_line(text, file.string(), 0, [](const Json& json) {
-    DatasetSummary summary{json.at("cases").get<std::size_t>(),  json.at("recipe_cases").get<std::size_t>(),
-                           json.at("failed").get<std::size_t>(), json.at("files").get<std::size_t>(),
-                           json.at("digest").get<std::string>(), {}};
+    DatasetSummary summary{
+        integer_from<std::size_t>(json.at("cases")),  integer_from<std::size_t>(json.at("recipe_cases")),
+        integer_from<std::size_t>(json.at("failed")), integer_from<std::size_t>(json.at("files")),
+        json.at("digest").get<std::string>(),         {}};
     for (const Json& versions : json.at("made_with")) {
       Versions names;
       for (const auto& [name, version] : versions.items()) names[name] = version.get<std::string>();

@@ -11,7 +11,8 @@ Json id_json(const CaseId& id) {
 }
 
 CaseId id_from(const Json& json) {
-  return {json.at("set").get<std::string>(), json.at("tubes").get<int>(), json.at("case").get<int>()};
+  return {json.at("set").get<std::string>(), integer_from<int>(json.at("tubes")),
+          integer_from<int>(json.at("case"))};
 }
 
 std::string seed_text(std::uint64_t seed) {

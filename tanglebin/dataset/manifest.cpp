@@ -60,7 +60,7 @@ CaseRecord case_record(const std::string& json, const std::string& file, std::si
                       seed_from(value.at("seed")),
                       value.at("simulated").get<double>(),
                       value.at("largest_overlap").get<double>(),
-                      value.at("points").get<std::size_t>(),
+                      integer_from<std::size_t>(value.at("points")),
                       {},
                       {}};
     for (const Json& rejection : value.at("rejected")) {
@@ -68,7 +68,7 @@ CaseRecord case_record(const std::string& json, const std::string& file, std::si
                                    rejection.at("fault").get<std::string>()});
     }
     for (const Json& entry : value.at("files")) {
-      record.files.push_back({path_from(entry.at("path")), entry.at("bytes").get<std::size_t>(),
+      record.files.push_back({path_from(entry.at("path")), integer_from<std::size_t>(entry.at("bytes")),
                               entry.at("sha256").get<std::string>()});
     }
     return record;

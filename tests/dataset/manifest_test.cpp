@@ -55,6 +55,22 @@ TEST(Manifest, APathThatLeadsOutOfTheDatasetIsAnError) {
   }
 }
 
+// Found by fuzz/manifest_fuzz: such a number was converted to an integer that cannot hold it.
+TEST(Manifest, ANumberThatIsNoWholeOneInRangeIsAnError) {
+  for (const std::string number : {"1e300", "1.5", "-1", "18446744073709551616", "null", "\"7\"", "true"}) {
+    std::string line = to_json(example_record());
+    line.replace(line.find("4321,"), 4, number);
+    EXPECT_THAT(test::complaint([&] { case_record(line, "manifest.jsonl", 12); }),
+                testing::AllOf(testing::StartsWith("manifest.jsonl:12: "),
+                               testing::HasSubstr("expected a whole number in range")))
+        << number;
+  }
+  std::string line = to_json(example_record());
+  line.replace(line.find("\"tubes\":10"), 10, "\"tubes\":3000000000");
+  EXPECT_THAT(test::complaint([&] { case_record(line, "manifest.jsonl", 12); }),
+              testing::HasSubstr("found 3000000000, expected a whole number in range"));
+}
+
 TEST(Manifest, ADamagedLineIsAnErrorThatSaysWhere) {
   for (const std::string line : {"", "{", "[]", R"({"set":"A"})", R"({"set":"A","tubes":"ten","case":1})",
                                  R"({"set":"A","tubes":1,"case":1,"seed":"xyz"})"}) {
