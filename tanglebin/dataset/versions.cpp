@@ -11,10 +11,21 @@
 #include <boost/version.hpp>
 
 namespace tanglebin {
+namespace {
+
+// The C library computes sine and cosine otherwise where the processor has fused multiply-add.
+std::string machine() {
+  utsname name{};
+  uname(&name);
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("fma") == 0) return fmt::format("{} without FMA", name.machine);
+#endif
+  return name.machine;
+}
+
+}  // namespace
 
 Versions versions() {
-  utsname machine{};
-  uname(&machine);
   return {
       {"tanglebin", TANGLEBIN_VERSION},
       {"compiler", TANGLEBIN_COMPILER},
@@ -26,7 +37,7 @@ Versions versions() {
       {"libpng", png_get_libpng_ver(nullptr)},
       {"zlib", zlibVersion()},
       {"glibc", gnu_get_libc_version()},
-      {"machine", machine.machine},
+      {"machine", machine()},
   };
 }
 
