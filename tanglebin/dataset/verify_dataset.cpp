@@ -160,7 +160,7 @@ private:
       std::string lines;
       for (const auto& [where, what] :
            faults_of_case(directory_, summary_.recipe, catalogue.record(there[task]), settings_.rest)) {
-        lines += where + '\t' + what + '\n';
+        lines += fmt::format("{}\t{}\n", where, what);
       }
       return lines;
     };
