@@ -3,6 +3,8 @@
 #include <boost/random/uniform_int_distribution.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
+#include "tanglebin/base/counter_random.hpp"
+
 namespace tanglebin {
 namespace {
 
@@ -18,13 +20,6 @@ void hash_number(std::uint64_t& hash, std::uint64_t number) {
   for (int shift = 0; shift < 64; shift += 8) hash_byte(hash, static_cast<unsigned char>(number >> shift));
 }
 
-// SplitMix64's finalizer (Steele, Lea, Flood 2014): spreads every input bit over the whole word.
-std::uint64_t mix(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
-
 }  // namespace
 
 std::uint64_t attempt_seed(std::uint64_t recipe_seed, std::string_view set, int tubes, int case_id,
@@ -36,7 +31,7 @@ std::uint64_t attempt_seed(std::uint64_t recipe_seed, std::string_view set, int 
   hash_number(hash, static_cast<std::uint64_t>(tubes));
   hash_number(hash, static_cast<std::uint64_t>(case_id));
   hash_number(hash, static_cast<std::uint64_t>(attempt));
-  return mix(hash);
+  return mix_bits(hash);
 }
 
 double uniform_real(Rng& rng, double low, double high) {

@@ -76,6 +76,16 @@ Range parse_range(std::string_view text, const std::string& option) {
   return {two->first, two->second};
 }
 
+std::uint64_t parse_hexadecimal(std::string_view text, const std::string& option) {
+  std::uint64_t value = 0;
+  constexpr int hexadecimal = 16;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, hexadecimal);
+  if (error != std::errc{} || end != text.data() + text.size()) {
+    throw InputError({"", 0, option}, quoted(text), "a hexadecimal number of at most 16 digits");
+  }
+  return value;
+}
+
 std::vector<double> parse_ratios(std::string_view text, const std::string& option) {
   const auto expect = [&](bool holds, std::string_view found, const std::string& expected) {
     if (!holds) throw InputError({"", 0, option}, quoted(found), expected);

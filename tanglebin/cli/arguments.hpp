@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -33,6 +34,9 @@ struct Range {
 
 /// "3" or "3-7". Throws InputError naming `option` for anything else.
 Range parse_range(std::string_view text, const std::string& option);
+
+/// "1f" is 31. Throws InputError naming `option` for anything but a hexadecimal number of at most 64 bits.
+std::uint64_t parse_hexadecimal(std::string_view text, const std::string& option);
 
 /// "0.1,0.3" or "0.1:1.0:0.1" (first:last:step, both ends in it): the double nearest to each decimal number,
 /// ascending. Throws InputError naming `option` for anything else: a ratio that is not in (0, 1] or has more

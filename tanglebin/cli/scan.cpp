@@ -19,7 +19,8 @@
 #include "tanglebin/cloud/ply.hpp"
 #include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/dataset/images.hpp"
-#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/dataset/recipe.hpp"
+#include "tanglebin/report/picture_of_scan.hpp"
 #include "tanglebin/scan/scanner.hpp"
 #include "tanglebin/settle/bin.hpp"
 
@@ -31,9 +32,13 @@ struct ScanArguments {
   std::string out;
   std::string bin = "paper";
   std::string scanner = "paper";
+  std::vector<std::string> settings;
+  std::string seed = "0";
   bool with_bin = false;
   std::optional<std::string> depth;
   std::optional<std::string> labels;
+  std::optional<std::string> picture;
+  PointProperties properties;
   bool json = false;
 };
 
@@ -48,9 +53,9 @@ std::string cloud_bytes(const ScanArguments& arguments, const Scan& view, int tu
   const CloudOf what = arguments.with_bin ? CloudOf::tubes_and_bin : CloudOf::tubes;
   std::ostringstream out;
   if (std::filesystem::path(arguments.out).extension() == ".pcd") {
-    write_pcd(out, organized_cloud_from_scan(view, what, tubes));
+    write_pcd(out, organized_cloud_from_scan(view, what, tubes, arguments.properties));
   } else {
-    write_ply(out, cloud_from_scan(view, what, tubes));
+    write_ply(out, cloud_from_scan(view, what, tubes, arguments.properties));
   }
   return std::move(out).str();
 }
@@ -77,7 +82,10 @@ void print_summary(const ScanArguments& arguments, const Scan& view, const std::
 void scan_configuration(const ScanArguments& arguments) {
   const std::vector<Tube> tubes =
       read_input(arguments.configuration, [](auto&&... from) { return read_configuration(from...); });
-  const Scan view = scan(tubes, bin_preset(arguments.bin), camera_preset(arguments.scanner));
+  const Scanner scanner = scanner_with(arguments.scanner, arguments.settings, "--set");
+  const Bin bin = bin_preset(arguments.bin);
+  const Scan view =
+      scan(tubes, bin, scanner.camera, scanner.sensor, parse_hexadecimal(arguments.seed, "--seed"));
   write_output(arguments.out, cloud_bytes(arguments, view, largest_id(tubes)));
   if (arguments.depth) {
     write_output(*arguments.depth, depth_png(view));
@@ -85,6 +93,10 @@ void scan_configuration(const ScanArguments& arguments) {
                  camera_json(view.camera));
   }
   if (arguments.labels) write_output(*arguments.labels, label_png(view));
+  if (arguments.picture) {
+    const Picture picture = picture_of_scan(scan(tubes, bin, scanner.camera), view, arguments.configuration);
+    write_output(*arguments.picture, color_png(picture.width, picture.height, picture.pixels));
+  }
   if (arguments.out != standard_stream) print_summary(arguments, view, tubes);
 }
 
@@ -102,16 +114,35 @@ void add_scan(CLI::App& app) {
       ->required();
   command->add_option("--bin", arguments->bin, "Bin that the tubes lie in: paper or published")
       ->capture_default_str();
-  command->add_option("--scanner", arguments->scanner, "Camera: paper or zivid-one-plus-l")
+  command
+      ->add_option("--scanner", arguments->scanner,
+                   "Scanner: paper, which is ideal, gaussian, zivid-one-plus-l or kinect-v1")
+      ->capture_default_str();
+  command
+      ->add_option("--set", arguments->settings,
+                   "A setting of the scanner in place of its own, such as scanner.baseline=0.3")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--seed", arguments->seed,
+                   "What a scanner's noise follows from: a seed as a manifest has it, hexadecimal")
       ->capture_default_str();
   command->add_flag("--with-bin", arguments->with_bin, "Give the bin's points too, label 0");
   command->add_option("--depth", arguments->depth,
                       "Also a 16-bit depth image (PNG) and its camera beside it (JSON)");
   command->add_option("--labels", arguments->labels, "Also a 16-bit label image (PNG)");
+  command->add_option("--picture", arguments->picture,
+                      "Also a picture: depth, labels, signal and error beside an ideal scan (PNG)");
+  command->add_flag("--normals", arguments->properties.normals, "Give the points normals");
+  command->add_flag("--intensities", arguments->properties.intensities,
+                    "Give the points their signal-to-noise ratios");
+  command->add_flag("--mixed", arguments->properties.mixed,
+                    "Mark points that are the mean of several surfaces");
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin scan dataset/A10/tube_configurations/1.txt --out cloud.ply --with-bin\n"
-      "Formats: docs/formats.md.");
+      "  tanglebin scan dataset/A10/tube_configurations/1.txt --out cloud.ply --scanner zivid-one-plus-l\n"
+      "Formats: docs/formats.md. Scanners and their settings: docs/sensor.md.");
   command->callback([arguments] { scan_configuration(*arguments); });
 }
 

@@ -16,9 +16,12 @@ using Color = std::array<std::uint8_t, 3>;  ///< red, green, blue
 /// A point cloud as arrays of equal length; an optional array is empty where the cloud has no such property.
 /// Organized (width * height points, row by row, NaN where there is none) or not (height 1).
 struct PointCloud {
-  std::vector<Eigen::Vector3f> points;  ///< m, world frame
-  std::vector<std::int32_t> labels;     ///< optional: 0 the bin, 1..n the tubes, −1 null
-  std::vector<Color> colors;            ///< optional
+  std::vector<Eigen::Vector3f> points;     ///< m, world frame
+  std::vector<std::int32_t> labels;        ///< optional: 0 the bin, 1..n the tubes, −1 null
+  std::vector<Color> colors;               ///< optional
+  std::vector<Eigen::Vector3f> normals{};  ///< optional: of the true surface, outward unit vectors
+  std::vector<float> intensities{};        ///< optional: the signal-to-noise ratio
+  std::vector<std::uint8_t> mixed{};       ///< optional: 1 for a point that is the mean of several surfaces
   std::size_t width = 0;
   std::size_t height = 1;
   std::optional<Eigen::Isometry3d> viewpoint;  ///< sensor frame → world frame, where known
@@ -31,10 +34,20 @@ void check_cloud(const PointCloud& cloud);
 /// Which pixels of a scan become points.
 enum class CloudOf { tubes, tubes_and_bin };
 
-/// The unordered cloud of a scan, in the order of its pixels, labelled and coloured with label_colors().
-PointCloud cloud_from_scan(const Scan& scan, CloudOf what, int tubes);
+/// Which optional properties the points of a scan get beside label and colour.
+struct PointProperties {
+  bool normals = false;
+  bool intensities = false;  ///< 1 where the scanner knows no signal
+  bool mixed = false;
 
-/// The organized cloud of the whole image, NaN and null where a pixel has no point.
-PointCloud organized_cloud_from_scan(const Scan& scan, CloudOf what, int tubes);
+  bool operator==(const PointProperties&) const = default;
+};
+
+/// The unordered cloud of a scan, in the order of its pixels, labelled and coloured with label_colors().
+PointCloud cloud_from_scan(const Scan& scan, CloudOf what, int tubes, const PointProperties& properties = {});
+
+/// The organized cloud of the whole image: NaN, null, intensity 0 and not mixed where a pixel has no point.
+PointCloud organized_cloud_from_scan(const Scan& scan, CloudOf what, int tubes,
+                                     const PointProperties& properties = {});
 
 }  // namespace tanglebin

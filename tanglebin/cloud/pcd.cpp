@@ -143,6 +143,11 @@ void recognize(Property& field, const std::string& type, const InputPlace& place
       {"rgb", {Meaning::packed_rgb, "F 4 or U 4"}},
       {"rgba", {Meaning::packed_rgb, "F 4 or U 4"}},
       {"label", {Meaning::label, "I or U"}},
+      {"normal_x", {Meaning::normal_x, "F 4 or F 8"}},
+      {"normal_y", {Meaning::normal_y, "F 4 or F 8"}},
+      {"normal_z", {Meaning::normal_z, "F 4 or F 8"}},
+      {"intensity", {Meaning::intensity, "any"}},
+      {"mixed", {Meaning::mixed, "I or U"}},
   };
   const auto known = known_fields.find(field.name);
   if (known == known_fields.end()) return;
@@ -327,17 +332,30 @@ std::string viewpoint_of(const PointCloud& cloud) {
   return fmt::format("{} {} {} {} {} {} {}", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
 }
 
+// An optional field, or several: names, sizes, types and counts.
+struct FieldText {
+  bool there;
+  std::string_view names, sizes, types, counts;
+};
+
 std::string header_of(const PointCloud& cloud) {
-  const bool colors = !cloud.colors.empty();
-  const bool labels = !cloud.labels.empty();
-  const auto line = [&](std::string_view keyword, std::string_view xyz, std::string_view rgb,
-                        std::string_view label) {
-    return fmt::format("{} {}{}{}\n", keyword, xyz, colors ? rgb : "", labels ? label : "");
+  const std::array<FieldText, 6> fields{{
+      {true, "x y z", "4 4 4", "F F F", "1 1 1"},
+      {!cloud.colors.empty(), " rgb", " 4", " F", " 1"},
+      {!cloud.labels.empty(), " label", " 4", " U", " 1"},
+      {!cloud.normals.empty(), " normal_x normal_y normal_z", " 4 4 4", " F F F", " 1 1 1"},
+      {!cloud.intensities.empty(), " intensity", " 4", " F", " 1"},
+      {!cloud.mixed.empty(), " mixed", " 1", " U", " 1"},
+  }};
+  const auto line = [&](std::string_view keyword, std::string_view FieldText::*part) {
+    std::string text = std::string(keyword) + ' ';
+    for (const FieldText& field : fields) text += field.there ? field.*part : std::string_view();
+    return text + '\n';
   };
   return "# .PCD v0.7 - Point Cloud Data file format\n"
          "VERSION 0.7\n" +
-         line("FIELDS", "x y z", " rgb", " label") + line("SIZE", "4 4 4", " 4", " 4") +
-         line("TYPE", "F F F", " F", " U") + line("COUNT", "1 1 1", " 1", " 1") +
+         line("FIELDS", &FieldText::names) + line("SIZE", &FieldText::sizes) +
+         line("TYPE", &FieldText::types) + line("COUNT", &FieldText::counts) +
          fmt::format("WIDTH {}\nHEIGHT {}\nVIEWPOINT {}\nPOINTS {}\nDATA binary_compressed\n", cloud.width,
                      cloud.height, viewpoint_of(cloud), cloud.points.size());
 }
@@ -351,12 +369,18 @@ void append(std::vector<std::byte>& bytes, const T& value) {
 std::vector<std::byte> planes_of(const PointCloud& cloud) {
   std::vector<std::byte> planes;
   planes.reserve(cloud.points.size() * (sizeof(Eigen::Vector3f) + 2 * sizeof(std::uint32_t)));
-  for (const Eigen::Index axis : {0, 1, 2}) {
-    for (const Eigen::Vector3f& point : cloud.points) append(planes, point[axis]);
-  }
+  const auto append_vectors = [&](const std::vector<Eigen::Vector3f>& vectors) {
+    for (const Eigen::Index axis : {0, 1, 2}) {
+      for (const Eigen::Vector3f& vector : vectors) append(planes, vector[axis]);
+    }
+  };
+  append_vectors(cloud.points);
   for (const Color& color : cloud.colors)
     append(planes, std::array<std::uint8_t, 4>{color[2], color[1], color[0], 0});
   for (const std::int32_t label : cloud.labels) append(planes, label);
+  append_vectors(cloud.normals);
+  for (const float intensity : cloud.intensities) append(planes, intensity);
+  for (const std::uint8_t mixed : cloud.mixed) append(planes, mixed);
   return planes;
 }
 

@@ -39,7 +39,7 @@ struct KnownProperty {
   Meaning meaning;
   std::string_view types;
 };
-constexpr std::array<KnownProperty, 7> known_properties{{
+constexpr std::array<KnownProperty, 12> known_properties{{
     {"x", Meaning::x, "float or double"},
     {"y", Meaning::y, "float or double"},
     {"z", Meaning::z, "float or double"},
@@ -47,6 +47,11 @@ constexpr std::array<KnownProperty, 7> known_properties{{
     {"green", Meaning::green, "uchar"},
     {"blue", Meaning::blue, "uchar"},
     {"label", Meaning::label, "an integer type"},
+    {"nx", Meaning::normal_x, "float or double"},
+    {"ny", Meaning::normal_y, "float or double"},
+    {"nz", Meaning::normal_z, "float or double"},
+    {"intensity", Meaning::intensity, "a single value"},
+    {"mixed", Meaning::mixed, "an integer type"},
 }};
 
 Encoding parse_format(const CloudInput& input, const Words& words) {
@@ -235,8 +240,11 @@ std::string header_of(const PointCloud& cloud) {
       "property float y\n"
       "property float z\n",
       cloud.points.size());
+  if (!cloud.normals.empty()) header += "property float nx\nproperty float ny\nproperty float nz\n";
   if (!cloud.colors.empty()) header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   if (!cloud.labels.empty()) header += "property int label\n";
+  if (!cloud.intensities.empty()) header += "property float intensity\n";
+  if (!cloud.mixed.empty()) header += "property uchar mixed\n";
   return header + "end_header\n";
 }
 
@@ -256,6 +264,16 @@ char* put(char* to, const T& value) {
   static_assert(std::endian::native == std::endian::little, "the files' byte order");
   std::memcpy(to, &value, sizeof(T));
   return to + sizeof(T);
+}
+
+char* put_vector(char* to, const Eigen::Vector3f& v) {
+  return put(to, std::array{v.x(), v.y(), v.z()});
+}
+
+// Bytes that a point has of an optional property.
+template <class T>
+std::size_t size_of_one(const std::vector<T>& values) {
+  return values.empty() ? 0 : sizeof(T);
 }
 
 }  // namespace
@@ -285,15 +303,18 @@ void write_ply(std::ostream& out, const PointCloud& cloud) {
   check_finite(cloud);
   std::string ply = header_of(cloud);
   const std::size_t header_size = ply.size();
-  const std::size_t point_size = sizeof(Eigen::Vector3f) + (cloud.colors.empty() ? 0 : sizeof(Color)) +
-                                 (cloud.labels.empty() ? 0 : sizeof(std::int32_t));
+  const std::size_t point_size = sizeof(Eigen::Vector3f) + size_of_one(cloud.normals) +
+                                 size_of_one(cloud.colors) + size_of_one(cloud.labels) +
+                                 size_of_one(cloud.intensities) + size_of_one(cloud.mixed);
   ply.resize(header_size + cloud.points.size() * point_size);
   char* to = ply.data() + header_size;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const Eigen::Vector3f& point = cloud.points[i];
-    to = put(to, std::array{point.x(), point.y(), point.z()});
+    to = put_vector(to, cloud.points[i]);
+    if (!cloud.normals.empty()) to = put_vector(to, cloud.normals[i]);
     if (!cloud.colors.empty()) to = put(to, cloud.colors[i]);
     if (!cloud.labels.empty()) to = put(to, cloud.labels[i]);
+    if (!cloud.intensities.empty()) to = put(to, cloud.intensities[i]);
+    if (!cloud.mixed.empty()) to = put(to, cloud.mixed[i]);
   }
   out.write(ply.data(), static_cast<std::streamsize>(ply.size()));
 }

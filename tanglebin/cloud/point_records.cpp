@@ -220,6 +220,9 @@ bool can_be(Meaning meaning, Scalar type) {
     case Meaning::x:
     case Meaning::y:
     case Meaning::z:
+    case Meaning::normal_x:
+    case Meaning::normal_y:
+    case Meaning::normal_z:
       return !is_integer(type);
     case Meaning::red:
     case Meaning::green:
@@ -228,7 +231,9 @@ bool can_be(Meaning meaning, Scalar type) {
     case Meaning::packed_rgb:
       return type == Scalar::float32 || type == Scalar::uint32;
     case Meaning::label:
+    case Meaning::mixed:
       return is_integer(type);
+    case Meaning::intensity:
     case Meaning::other:
       return true;
   }
@@ -287,6 +292,9 @@ void PointDecoder::reserve(std::size_t bytes) {
   cloud_.points.reserve(points);
   if (has(Meaning::label)) cloud_.labels.reserve(points);
   if (has_colors()) cloud_.colors.reserve(points);
+  if (has_normals()) cloud_.normals.reserve(points);
+  if (has(Meaning::intensity)) cloud_.intensities.reserve(points);
+  if (has(Meaning::mixed)) cloud_.mixed.reserve(points);
 }
 
 void PointDecoder::add_records(const Records& records) {
@@ -311,6 +319,9 @@ void PointDecoder::grow(std::size_t points) {
   cloud_.width = points;
   if (has(Meaning::label)) cloud_.labels.resize(points);
   if (has_colors()) cloud_.colors.resize(points);
+  if (has_normals()) cloud_.normals.resize(points);
+  if (has(Meaning::intensity)) cloud_.intensities.resize(points);
+  if (has(Meaning::mixed)) cloud_.mixed.resize(points);
 }
 
 void PointDecoder::decode(const Property& property, const Column& column) {
@@ -331,6 +342,16 @@ void PointDecoder::decode(const Property& property, const Column& column) {
       return decode_packed_colors(column);
     case Meaning::label:
       return decode_labels(property, column);
+    case Meaning::normal_x:
+      return decode_normals(property, column, 0);
+    case Meaning::normal_y:
+      return decode_normals(property, column, 1);
+    case Meaning::normal_z:
+      return decode_normals(property, column, 2);
+    case Meaning::intensity:
+      return decode_intensities(property, column);
+    case Meaning::mixed:
+      return decode_mixed(property, column);
     case Meaning::other:
       return;
   }
@@ -375,6 +396,32 @@ void PointDecoder::decode_labels(const Property& property, const Column& column)
         labels[point] = *label;
       });
     }
+  });
+}
+
+// A file that has only some of a normal's coordinates has no normals.
+void PointDecoder::decode_normals(const Property& property, const Column& column, Eigen::Index axis) {
+  if (!has_normals()) return;
+  Eigen::Vector3f* const normals = cloud_.normals.data();
+  visit(property.type, [&]<class T>(std::type_identity<T>) {
+    for_each_value<T>(column, order_,
+                      [=](std::size_t point, T value) { normals[point][axis] = static_cast<float>(value); });
+  });
+}
+
+void PointDecoder::decode_intensities(const Property& property, const Column& column) {
+  float* const intensities = cloud_.intensities.data();
+  visit(property.type, [&]<class T>(std::type_identity<T>) {
+    for_each_value<T>(column, order_,
+                      [=](std::size_t point, T value) { intensities[point] = static_cast<float>(value); });
+  });
+}
+
+void PointDecoder::decode_mixed(const Property& property, const Column& column) {
+  std::uint8_t* const mixed = cloud_.mixed.data();
+  visit(property.type, [&]<class T>(std::type_identity<T>) {
+    for_each_value<T>(column, order_,
+                      [=](std::size_t point, T value) { mixed[point] = value != T{0} ? 1 : 0; });
   });
 }
 

@@ -21,10 +21,26 @@ std::size_t size_of(Scalar type);
 bool is_integer(Scalar type);
 
 /// What a property of a point is to a PointCloud.
-enum class Meaning { other, x, y, z, red, green, blue, packed_rgb, label };
+enum class Meaning {
+  other,
+  x,
+  y,
+  z,
+  red,
+  green,
+  blue,
+  packed_rgb,
+  label,
+  normal_x,
+  normal_y,
+  normal_z,
+  intensity,
+  mixed
+};
 
-/// Whether a property of this type can have this meaning: coordinates are floating-point numbers, colours
-/// uint8, packed colours 32 bits wide, labels integers; anything goes for `other`.
+/// Whether a property of this type can have this meaning: coordinates and normals are floating-point numbers,
+/// colours uint8, packed colours 32 bits wide, labels and marks integers; anything goes for intensities and
+/// `other`.
 bool can_be(Meaning meaning, Scalar type);
 
 struct Property {
@@ -96,12 +112,18 @@ public:
 private:
   bool has(Meaning meaning) const { return find(element_, meaning) != nullptr; }
   bool has_colors() const { return has(Meaning::red) || has(Meaning::packed_rgb); }
+  bool has_normals() const {
+    return has(Meaning::normal_x) && has(Meaning::normal_y) && has(Meaning::normal_z);
+  }
   void grow(std::size_t points);
   void decode(const Property& property, const Column& column);
   void decode_coordinates(const Property& property, const Column& column, Eigen::Index axis);
   void decode_colors(const Column& column, std::size_t channel);
   void decode_packed_colors(const Column& column);
   void decode_labels(const Property& property, const Column& column);
+  void decode_normals(const Property& property, const Column& column, Eigen::Index axis);
+  void decode_intensities(const Property& property, const Column& column);
+  void decode_mixed(const Property& property, const Column& column);
   InputPlace place(const Property& property, std::size_t point) const;
 
   std::string file_;

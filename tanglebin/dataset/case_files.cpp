@@ -21,35 +21,59 @@ std::string bytes_of(const Write& write) {
   return std::move(out).str();
 }
 
+CloudOf points_of(const Recipe& recipe) {
+  return recipe.output.bin_points ? CloudOf::tubes_and_bin : CloudOf::tubes;
+}
+
+void add_cloud(const Recipe& recipe, const CaseId& id, const std::string& scanner, const Scan& view,
+               std::vector<CaseFile>& files) {
+  files.push_back({file_of(id, "plys", "ply", scanner), bytes_of([&](std::ostream& out) {
+                     write_ply(out,
+                               cloud_from_scan(view, points_of(recipe), id.tubes, recipe.output.properties));
+                   })});
+}
+
+/// The files that are organized as the image is.
+void add_images(const Recipe& recipe, const CaseId& id, const std::string& scanner, const Scan& view,
+                std::vector<CaseFile>& files) {
+  const OutputSettings& output = recipe.output;
+  const auto add = [&](std::string_view kind, std::string_view extension, std::string bytes) {
+    files.push_back({file_of(id, kind, extension, scanner), std::move(bytes)});
+  };
+  if (output.pcds) {
+    add("pcds", "pcd", bytes_of([&](std::ostream& out) {
+          write_pcd(out, organized_cloud_from_scan(view, points_of(recipe), id.tubes, output.properties));
+        }));
+  }
+  if (output.depths) {
+    add("depths", "png", depth_png(view));
+    add("depths", "json", camera_json(view.camera));
+  }
+  if (output.labels) add("labels", "png", label_png(view));
+}
+
 }  // namespace
 
 std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const Scene& scene) {
-  const OutputSettings& output = recipe.output;
-  const CloudOf points = output.bin_points ? CloudOf::tubes_and_bin : CloudOf::tubes;
   std::vector<CaseFile> files;
   const auto add = [&](std::string_view kind, std::string_view extension, std::string bytes) {
     files.push_back({file_of(id, kind, extension), std::move(bytes)});
   };
 
-  add("plys", "ply",
-      bytes_of([&](std::ostream& out) { write_ply(out, cloud_from_scan(scene.scan, points, id.tubes)); }));
+  add_cloud(recipe, id, recipe.scanner_name, scene.scan, files);
   add("tube_configurations", "txt",
       bytes_of([&](std::ostream& out) { write_configuration(out, scene.tubes); }));
-  if (output.worlds) {
+  if (recipe.output.worlds) {
     add("gazebo_worlds", "world", bytes_of([&](std::ostream& out) {
           write_world(out, scene.tubes, recipe.bin, recipe.camera, recipe.settle);
         }));
   }
-  if (output.pcds) {
-    add("pcds", "pcd", bytes_of([&](std::ostream& out) {
-          write_pcd(out, organized_cloud_from_scan(scene.scan, points, id.tubes));
-        }));
+  add_images(recipe, id, recipe.scanner_name, scene.scan, files);
+  for (std::size_t i = 0; i < recipe.further_scanners.size(); ++i) {
+    const std::string& name = recipe.further_scanners[i].name;
+    add_cloud(recipe, id, name, scene.further_scans[i], files);
+    add_images(recipe, id, name, scene.further_scans[i], files);
   }
-  if (output.depths) {
-    add("depths", "png", depth_png(scene.scan));
-    add("depths", "json", camera_json(recipe.camera));
-  }
-  if (output.labels) add("labels", "png", label_png(scene.scan));
   return files;
 }
 

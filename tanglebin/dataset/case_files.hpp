@@ -15,7 +15,8 @@ struct CaseFile {
   std::string bytes;  ///< all of it
 };
 
-/// The files of a case, those that recipe.output asks for (docs/formats.md).
+/// The files of a case, those that recipe.output asks for (docs/formats.md), of each of the recipe's
+/// scanners; the recipe is the scene's, without random numbers.
 std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const Scene& scene);
 
 }  // namespace tanglebin

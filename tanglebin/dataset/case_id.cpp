@@ -18,8 +18,10 @@ std::string folder_name(std::string_view set, int tubes) {
   return fmt::format("{}{}", set, tubes);
 }
 
-std::string file_of(const CaseId& id, std::string_view kind, std::string_view extension) {
-  return fmt::format("{}/{}/{}.{}", folder_name(id.set, id.tubes), kind, id.number, extension);
+std::string file_of(const CaseId& id, std::string_view kind, std::string_view extension,
+                    std::string_view scanner) {
+  return fmt::format("{}/{}{}{}/{}.{}", folder_name(id.set, id.tubes), scanner, scanner.empty() ? "" : "/",
+                     kind, id.number, extension);
 }
 
 }  // namespace tanglebin

@@ -34,8 +34,8 @@ struct CheckedFile {
 };
 
 CheckedFile open_checked(const Dataset& dataset, const CaseId& id, std::string_view kind,
-                         std::string_view extension) {
-  const std::string path = file_of(id, kind, extension);
+                         std::string_view extension, std::string_view scanner = {}) {
+  const std::string path = file_of(id, kind, extension, scanner);
   const std::vector<FileRecord>& files = dataset.finished.records.at(id).files;
   const auto record = std::ranges::find(files, path, &FileRecord::path);
   const fs::path file = dataset.directory / path;
@@ -71,8 +71,12 @@ std::vector<CaseId> cases(const Dataset& dataset) {
   return there;
 }
 
+Recipe recipe_of(const Dataset& dataset, const CaseId& id) {
+  return resolve(dataset.recipe, dataset.finished.records.at(id).drawn);
+}
+
 CaseData read_case(const Dataset& dataset, const CaseId& id) {
-  CheckedFile cloud = open_checked(dataset, id, "plys", "ply");
+  CheckedFile cloud = open_checked(dataset, id, "plys", "ply", dataset.recipe.scanner_name);
   CheckedFile tubes = open_checked(dataset, id, "tube_configurations", "txt");
   return {cloud.name, read_ply(cloud.in, cloud.name), read_configuration(tubes.in, tubes.name)};
 }

@@ -30,10 +30,14 @@ std::vector<CaseId> cases(const Dataset& dataset);
 /// the manifest has the size and the checksum of.
 std::string checked_bytes(const std::filesystem::path& directory, const FileRecord& file);
 
+/// The recipe of a case that is there: the dataset's, with the numbers that were drawn for the case as the
+/// manifest has them.
+Recipe recipe_of(const Dataset& dataset, const CaseId& id);
+
 /// A case read back.
 struct CaseData {
   std::string cloud_file;  ///< for messages
-  PointCloud cloud;        ///< with the true labels
+  PointCloud cloud;        ///< of the recipe's first scanner, with the true labels
   std::vector<Tube> tubes;
 };
 

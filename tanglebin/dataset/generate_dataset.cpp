@@ -30,8 +30,20 @@ std::size_t count_points(const Scan& scan, bool with_bin) {
   return points;
 }
 
+std::vector<ScannerRecord> scanner_records(const Recipe& recipe, const Scene& scene) {
+  if (recipe.scanner_name.empty()) return {};
+  const bool with_bin = recipe.output.bin_points;
+  std::vector<ScannerRecord> records{{recipe.scanner_name, count_points(scene.scan, with_bin)}};
+  for (std::size_t i = 0; i < recipe.further_scanners.size(); ++i) {
+    records.push_back({recipe.further_scanners[i].name, count_points(scene.further_scans[i], with_bin)});
+  }
+  return records;
+}
+
 // One case from the recipe to its files.
-MadeCase make_case(const Recipe& recipe, const CaseId& id, const CaseWriter& writer) {
+MadeCase make_case(const Recipe& dataset_recipe, const CaseId& id, const CaseWriter& writer) {
+  const std::vector<DrawnNumber> drawn = draw(dataset_recipe, id);
+  const Recipe recipe = resolve(dataset_recipe, drawn);
   const Scene scene = [&] {
     try {
       return simulate(recipe, id);
@@ -48,7 +60,9 @@ MadeCase make_case(const Recipe& recipe, const CaseId& id, const CaseWriter& wri
                     scene.largest_overlap,
                     count_points(scene.scan, recipe.output.bin_points),
                     scene.rejections,
-                    {}};
+                    {},
+                    scanner_records(recipe, scene),
+                    drawn};
   for (const CaseFile& file : case_files(recipe, id, scene)) {
     record.files.push_back(writer.write(file.path, file.bytes));
   }

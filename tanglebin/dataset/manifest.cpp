@@ -31,6 +31,10 @@ std::string to_json(const CaseRecord& record) {
   json["simulated"] = record.simulated;
   json["largest_overlap"] = record.largest_overlap;
   json["points"] = record.points;
+  for (const ScannerRecord& scanner : record.scanners) {
+    json["scanners"].push_back({{"name", scanner.name}, {"points", scanner.points}});
+  }
+  for (const DrawnNumber& drawn : record.drawn) json["drawn"][drawn.path] = drawn.value;
   json["rejected"] = Json::array();
   for (const Rejection& rejection : record.rejections) {
     json["rejected"].push_back({{"seed", seed_text(rejection.seed)},
@@ -70,6 +74,14 @@ CaseRecord case_record(const std::string& json, const std::string& file, std::si
     for (const Json& entry : value.at("files")) {
       record.files.push_back({path_from(entry.at("path")), integer_from<std::size_t>(entry.at("bytes")),
                               entry.at("sha256").get<std::string>()});
+    }
+    for (const Json& scanner : value.value("scanners", Json::array())) {
+      record.scanners.push_back(
+          {scanner.at("name").get<std::string>(), integer_from<std::size_t>(scanner.at("points"))});
+    }
+    const Json drawn = value.value("drawn", Json::object());
+    for (const auto& [path, number] : drawn.items()) {
+      record.drawn.push_back({path, number.get<double>()});
     }
     return record;
   });

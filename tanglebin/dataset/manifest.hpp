@@ -18,6 +18,12 @@ struct FileRecord {
   std::string sha256;
 };
 
+/// What the manifest says of a scanner that has a name.
+struct ScannerRecord {
+  std::string name;
+  std::size_t points;  ///< in its cloud
+};
+
 /// What the manifest says of a case: only what follows from the recipe, so that the manifest of a recipe is
 /// always the same, byte for byte. How long things took stands elsewhere (TimesRecord).
 struct CaseRecord {
@@ -25,9 +31,11 @@ struct CaseRecord {
   std::uint64_t seed;
   double simulated;        ///< s
   double largest_overlap;  ///< m
-  std::size_t points;      ///< in the cloud
+  std::size_t points;      ///< in the cloud, of the first scanner
   std::vector<Rejection> rejections;
   std::vector<FileRecord> files;
+  std::vector<ScannerRecord> scanners{};  ///< where the recipe's have names
+  std::vector<DrawnNumber> drawn{};       ///< where the recipe has numbers that are drawn
 };
 
 /// How long a case took, and how large the process that made it had grown.

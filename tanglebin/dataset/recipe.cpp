@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -17,6 +18,8 @@
 #include <tuple>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/excerpt.hpp"
+#include "tanglebin/dataset/randomization.hpp"
 #include "tanglebin/dataset/toml_table.hpp"
 
 namespace tanglebin {
@@ -55,6 +58,32 @@ constexpr std::tuple camera_lens_fields{
     Field{"cx", &Camera::cx},
     Field{"cy", &Camera::cy},
 };
+constexpr std::tuple sensor_fields{
+    Field{"sigma", &Sensor::sigma},
+    Field{"dropout", &Sensor::dropout},
+    Field{"edges", &Sensor::edges},
+    Field{"footprint", &Sensor::footprint},
+    Field{"sub_rays", &Sensor::sub_rays},
+    Field{"edge_jump", &Sensor::edge_jump},
+    Field{"shadows", &Sensor::shadows},
+    Field{"baseline", &Sensor::baseline},
+    Field{"working_distance", &Sensor::working_distance},
+    Field{"signal", &Sensor::signal},
+    Field{"snr", &Sensor::snr},
+    Field{"snr_min", &Sensor::snr_min},
+    Field{"snr_max", &Sensor::snr_max},
+    Field{"albedo_min", &Sensor::albedo_min},
+    Field{"albedo_max", &Sensor::albedo_max},
+    Field{"gloss_min", &Sensor::gloss_min},
+    Field{"gloss_max", &Sensor::gloss_max},
+    Field{"shininess", &Sensor::shininess},
+    Field{"bin_albedo", &Sensor::bin_albedo},
+    Field{"bin_gloss", &Sensor::bin_gloss},
+    Field{"disparity_sigma", &Sensor::disparity_sigma},
+    Field{"trueness", &Sensor::trueness},
+    Field{"trueness_length", &Sensor::trueness_length},
+    Field{"kinect_noise", &Sensor::kinect_noise},
+};
 constexpr std::tuple settle_fields{
     Field{"gravity", &SettleSettings::gravity},
     Field{"friction", &SettleSettings::friction},
@@ -82,6 +111,11 @@ constexpr std::tuple output_fields{
     Field{"depths", &OutputSettings::depths},
     Field{"labels", &OutputSettings::labels},
 };
+constexpr std::tuple property_fields{
+    Field{"normals", &PointProperties::normals},
+    Field{"intensities", &PointProperties::intensities},
+    Field{"mixed", &PointProperties::mixed},
+};
 constexpr std::tuple tube_fields{
     Field{"radius", &TubeSpec::radius},
     Field{"mass", &TubeSpec::mass},
@@ -98,6 +132,13 @@ constexpr std::tuple segment_fields{
     AngleField{"bend_min_deg", &Segment::bend_min},
     AngleField{"bend_max_deg", &Segment::bend_max},
 };
+
+struct EdgesName {
+  Edges edges;
+  std::string_view name;
+};
+constexpr std::array<EdgesName, 3> edges_names{
+    {{Edges::keep, "keep"}, {Edges::drop, "drop"}, {Edges::mix, "mix"}}};
 
 using Keys = std::vector<std::string_view>;
 
@@ -158,6 +199,16 @@ void read_field(const TomlTable& table, const Field<Struct, Value>& field, Struc
 }
 
 template <typename Struct>
+void read_field(const TomlTable& table, const Field<Struct, Edges>& field, Struct& values) {
+  if (!table.has(field.key)) return;
+  std::string name;
+  table.get(field.key, name);
+  const auto known = std::ranges::find(edges_names, name, &EdgesName::name);
+  if (known == edges_names.end()) table.fail(field.key, excerpt(name), "\"keep\", \"drop\" or \"mix\"");
+  values.*field.member = known->edges;
+}
+
+template <typename Struct>
 void read_field(const TomlTable& table, const AngleField<Struct>& field, Struct& values) {
   if (!table.has(field.key)) return;
   double degrees = 0;
@@ -204,8 +255,23 @@ void read_lens(const TomlTable& table, Camera& camera, const Camera& preset) {
   read_fields(table, camera_lens_fields, camera);
 }
 
+// The view along z to a point, the image's x axis as near to the world's as can be.
+Eigen::Matrix3d read_look_at(const TomlTable& table, const Eigen::Vector3d& position) {
+  Eigen::Vector3d target;
+  table.get("look_at", target);
+  const Eigen::Vector3d z = (target - position).normalized();
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX() - z.x() * z;
+  constexpr double smallest = 1e-3;
+  if (!(x.norm() > smallest) || z.isZero())
+    table.fail("look_at", "a view along the world's x axis, or nowhere",
+               "a point elsewhere, or rotation_wxyz for such a view");
+  Eigen::Matrix3d rotation;
+  rotation << x.normalized(), z.cross(x.normalized()), z;
+  return rotation;
+}
+
 void read_pose(const TomlTable& table, Camera& camera) {
-  table.allow_one_of({"rotation_wxyz", "rotation_matrix"});
+  table.allow_one_of({"rotation_wxyz", "rotation_matrix", "look_at"});
   Eigen::Vector3d position = camera.pose.translation();
   Eigen::Matrix3d rotation = camera.pose.linear();
   table.get("position", position);
@@ -218,14 +284,17 @@ void read_pose(const TomlTable& table, Camera& camera) {
                  "a unit quaternion");
     rotation = Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized().toRotationMatrix();
   }
+  if (table.has("look_at")) rotation = read_look_at(table, position);
   camera.pose.translation() = position;
   camera.pose.linear() = rotation;
 }
 
-Camera read_scanner(const TomlTable& table) {
-  table.allow(all({{"preset", "hfov_deg", "focal_length_px", "position", "rotation_wxyz", "rotation_matrix"},
+Scanner read_scanner(const TomlTable& table) {
+  table.allow(all({{"name", "preset", "hfov_deg", "focal_length_px", "position", "rotation_wxyz",
+                    "rotation_matrix", "look_at"},
                    keys(camera_size_fields),
-                   keys(camera_lens_fields)}));
+                   keys(camera_lens_fields),
+                   keys(sensor_fields)}));
   std::string name = "paper";
   table.get("preset", name);
   const Camera preset = with_place(table.file(), table.line("preset"), [&] { return camera_preset(name); });
@@ -233,7 +302,38 @@ Camera read_scanner(const TomlTable& table) {
   read_fields(table, camera_size_fields, camera);
   read_lens(table, camera, preset);
   read_pose(table, camera);
-  return camera;
+  Sensor sensor = sensor_preset(name);
+  read_fields(table, sensor_fields, sensor);
+  std::string scanner_name;
+  table.get("name", scanner_name);
+  return {scanner_name, camera, sensor};
+}
+
+// One [scanner] without a name, or [[scanner]]s with names.
+void read_scanners(const TomlTable& root, Recipe& recipe) {
+  std::vector<Scanner> all_scanners;
+  if (root.is_array("scanner")) {
+    for (const TomlTable& table : root.tables("scanner")) {
+      table.require({"name"});
+      all_scanners.push_back(read_scanner(table));
+    }
+    if (all_scanners.empty()) root.fail("scanner", "none", "at least one [[scanner]]");
+  } else {
+    all_scanners.push_back(read_scanner(root.table("scanner")));
+  }
+  Scanner& first = all_scanners.front();
+  recipe.scanner_name = first.name;
+  recipe.camera = first.camera;
+  recipe.sensor = first.sensor;
+  recipe.further_scanners.assign(all_scanners.begin() + 1, all_scanners.end());
+}
+
+OutputSettings read_output(const TomlTable& table) {
+  table.allow(all({keys(output_fields), keys(property_fields)}));
+  OutputSettings settings;
+  read_fields(table, output_fields, settings);
+  read_fields(table, property_fields, settings.properties);
+  return settings;
 }
 
 template <typename Struct, typename... Fields>
@@ -288,9 +388,9 @@ Recipe read_root(const TomlTable& root) {
   root.get("seed", recipe.seed);
   root.get("attempts", recipe.attempts);
   recipe.bin = read_bin(root.table("bin"));
-  recipe.camera = read_scanner(root.table("scanner"));
+  read_scanners(root, recipe);
   recipe.settle = read_settings<SettleSettings>(root.table("settle"), settle_fields);
-  recipe.output = read_settings<OutputSettings>(root.table("output"), output_fields);
+  recipe.output = read_output(root.table("output"));
   for (const TomlTable& set : root.tables("set")) recipe.sets.push_back(read_set(set));
   return recipe;
 }
@@ -329,6 +429,26 @@ std::size_t line_of(const toml::table& root, std::string field) {
   return 0;
 }
 
+// Calls `call`, which validates what was read; an error of its gets the line that it is about.
+template <typename Call>
+void validate_at(const std::string& name, const toml::table& root, Call call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    throw InputError({name, line_of(root, error.place().field), ""}, error.what());
+  }
+}
+
+// A setting of the command line, key=value, where a string needs no quotation marks.
+std::string toml_line(const std::string& setting) {
+  const std::size_t middle = setting.find('=');
+  if (middle == std::string::npos || middle + 1 == setting.size()) return setting;
+  const std::string value = setting.substr(middle + 1);
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; };
+  const bool is_word = std::ranges::all_of(value, is_letter) && value != "true" && value != "false";
+  return is_word ? fmt::format("{} = \"{}\"", setting.substr(0, middle), value) : setting;
+}
+
 // Writing
 
 std::string value_text(double value) {
@@ -339,6 +459,9 @@ std::string value_text(int value) {
 }
 std::string value_text(bool value) {
   return value ? "true" : "false";
+}
+std::string value_text(Edges value) {
+  return fmt::format("\"{}\"", std::ranges::find(edges_names, value, &EdgesName::edges)->name);
 }
 
 template <typename Vector>
@@ -363,13 +486,23 @@ std::string fields_text(const std::tuple<Fields...>& fields, const Struct& value
   return std::apply([&](const auto&... field) { return (field_text(field, values) + ...); }, fields);
 }
 
-std::string scanner_text(const Camera& camera) {
+std::string scanner_text(const Scanner& scanner) {
+  const Camera& camera = scanner.camera;
   const Eigen::Vector3d position = camera.pose.translation();
   const Eigen::Matrix3d rotation = camera.pose.linear();
-  return fields_text(camera_size_fields, camera) + fields_text(camera_lens_fields, camera) +
+  const std::string header =
+      scanner.name.empty() ? "\n[scanner]\n" : fmt::format("\n[[scanner]]\nname = \"{}\"\n", scanner.name);
+  return header + fields_text(camera_size_fields, camera) + fields_text(camera_lens_fields, camera) +
          fmt::format("position = {}\n", vector_text(position)) +
          fmt::format("rotation_matrix = [{}, {}, {}]\n", vector_text(rotation.row(0)),
-                     vector_text(rotation.row(1)), vector_text(rotation.row(2)));
+                     vector_text(rotation.row(1)), vector_text(rotation.row(2))) +
+         // The paper's ideal scanner is told by its camera alone.
+         (scanner.sensor == Sensor{} ? "" : fields_text(sensor_fields, scanner.sensor));
+}
+
+std::string output_text(const OutputSettings& output) {
+  return fields_text(output_fields, output) +
+         (output.properties == PointProperties{} ? "" : fields_text(property_fields, output.properties));
 }
 
 std::string tube_text(const TubeSpec& spec) {
@@ -388,19 +521,136 @@ std::string set_text(const SetRecipe& set) {
          tube_text(set.spec);
 }
 
+std::string text_of(const Recipe& recipe) {
+  std::string text = "# A resolved recipe: every value is here, presets are spelled out.\n" +
+                     fmt::format("seed = {}\nattempts = {}\n", recipe.seed, recipe.attempts) +
+                     fmt::format("\n[bin]\n{}", fields_text(bin_fields, recipe.bin));
+  for (const Scanner& scanner : scanners(recipe)) text += scanner_text(scanner);
+  text += fmt::format("\n[settle]\n{}", fields_text(settle_fields, recipe.settle)) +
+          fmt::format("\n[output]\n{}", output_text(recipe.output));
+  for (const SetRecipe& set : recipe.sets) text += set_text(set);
+  return recipe.random.empty() ? text : with_settings(text, recipe.random);
+}
+
+// Reading, with random numbers
+
+Recipe read_text(const std::string& text, const std::string& name) {
+  const toml::table root = parse(text, name);
+  Recipe recipe = read_root({name, root, ""});
+  validate_at(name, root, [&] { validate(recipe); });
+  return recipe;
+}
+
+// Which cases there are, and what they follow from, is not drawn.
+void expect_drawable(const RandomNumber& number, const std::string& name) {
+  const std::string& path = number.path;
+  const bool structural = path == "seed" || path == "attempts" || path.ends_with(".cases") ||
+                          path.find(".tubes") != std::string::npos;
+  if (structural) throw InputError({name, number.line, path}, "a number to be drawn", "a fixed one");
+}
+
+// Without one of these, the resolved recipe could not tell what the field of view of another size is.
+void expect_lens_of_random_size(const std::vector<RandomSetting>& settings, const std::string& name) {
+  const auto said = [&](const std::string& table, std::string_view key) {
+    return std::ranges::any_of(
+        settings, [&](const RandomSetting& setting) { return setting.table == table && setting.key == key; });
+  };
+  for (const RandomSetting& setting : settings) {
+    if (setting.key != "width" && setting.key != "height") continue;
+    if (!setting.table.starts_with("scanner")) continue;
+    const std::string& table = setting.table;
+    if (said(table, "hfov_deg") || said(table, "focal_length_px") || said(table, "fx")) continue;
+    throw InputError({name, 0, table + "." + setting.key}, "an image whose size is drawn",
+                     "hfov_deg, focal_length_px or fx and fy beside it");
+  }
+}
+
+// Reads the recipe with the lowest and with the highest numbers, and with each alone the highest.
+Recipe read_random(const std::string& text, const toml::table& root, const std::vector<RandomNumber>& numbers,
+                   const std::string& name) {
+  for (const RandomNumber& number : numbers) expect_drawable(number, name);
+  std::vector<double> lows(numbers.size());
+  std::vector<double> highs(numbers.size());
+  std::ranges::transform(numbers, lows.begin(), lowest);
+  std::ranges::transform(numbers, highs.begin(), highest);
+  read_text(with_numbers(text, numbers, highs), name);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    std::vector<double> one_high = lows;
+    one_high[i] = highs[i];
+    read_text(with_numbers(text, numbers, one_high), name);
+  }
+  Recipe recipe = read_text(with_numbers(text, numbers, lows), name);
+  recipe.random = random_settings(root);
+  expect_lens_of_random_size(recipe.random, name);
+  const std::string written = text_of(recipe);
+  if (find_random_numbers(parse(written, name), written, name).size() != numbers.size()) {
+    throw InputError({name, numbers.front().line, numbers.front().path},
+                     "a number to be drawn in a tree of one segment",
+                     "the segment's keys in [set.tube] itself");
+  }
+  return recipe;
+}
+
+bool concerns(const RandomNumber& number, const Recipe& recipe, const CaseId& id) {
+  if (!number.path.starts_with("set[")) return true;
+  const auto set = std::ranges::find(recipe.sets, id.set, &SetRecipe::name);
+  return number.path.starts_with(fmt::format("set[{}].", set - recipe.sets.begin()));
+}
+
 }  // namespace
+
+std::vector<Scanner> scanners(const Recipe& recipe) {
+  std::vector<Scanner> all{{recipe.scanner_name, recipe.camera, recipe.sensor}};
+  all.insert(all.end(), recipe.further_scanners.begin(), recipe.further_scanners.end());
+  return all;
+}
+
+std::vector<DrawnNumber> draw(const Recipe& recipe, const CaseId& id) {
+  if (recipe.random.empty()) return {};
+  const std::string text = text_of(recipe);
+  std::vector<DrawnNumber> drawn;
+  for (const RandomNumber& number : find_random_numbers(parse(text, ""), text, "")) {
+    if (concerns(number, recipe, id)) drawn.push_back({number.path, draw_number(number, recipe.seed, id)});
+  }
+  return drawn;
+}
+
+Recipe resolve(const Recipe& recipe, const std::vector<DrawnNumber>& drawn) {
+  if (recipe.random.empty()) return recipe;
+  const std::string text = text_of(recipe);
+  const std::vector<RandomNumber> places = find_random_numbers(parse(text, ""), text, "");
+  std::vector<double> numbers;
+  for (const RandomNumber& place : places) {
+    const auto found = std::ranges::find(drawn, place.path, &DrawnNumber::path);
+    if (found == drawn.end() && !place.path.starts_with("set["))
+      throw InputError({"", 0, place.path}, "has not been drawn");
+    numbers.push_back(found == drawn.end() ? lowest(place) : found->value);
+  }
+  return read_text(with_numbers(text, places, numbers), "");
+}
+
+Scanner scanner_with(const std::string& preset, const std::vector<std::string>& settings,
+                     const std::string& option) {
+  std::string text;
+  for (const std::string& setting : settings) text += toml_line(setting) + '\n';
+  text += fmt::format("scanner.preset = {:?}\n", preset);
+  const toml::table root = parse(text, option);
+  const TomlTable table(option, root, "");
+  table.allow({"scanner"});
+  Scanner scanner = read_scanner(table.table("scanner"));
+  validate_at(option, root, [&] {
+    validate(scanner.camera);
+    validate(scanner.sensor);
+  });
+  return scanner;
+}
 
 Recipe read_recipe(std::istream& in, const std::string& name) {
   const std::string text = ascii_text(in);
   if (in.bad()) throw InputError({name, 0, ""}, "cannot be read");
   const toml::table root = parse(text, name);
-  Recipe recipe = read_root({name, root, ""});
-  try {
-    validate(recipe);
-  } catch (const InputError& error) {
-    throw InputError({name, line_of(root, error.place().field), ""}, error.what());
-  }
-  return recipe;
+  const std::vector<RandomNumber> numbers = find_random_numbers(root, text, name);
+  return numbers.empty() ? read_text(text, name) : read_random(text, root, numbers, name);
 }
 
 Recipe read_recipe(const std::filesystem::path& file) {
@@ -411,13 +661,7 @@ Recipe read_recipe(const std::filesystem::path& file) {
 }
 
 void write_recipe(std::ostream& out, const Recipe& recipe) {
-  out << "# A resolved recipe: every value is here, presets are spelled out.\n"
-      << fmt::format("seed = {}\nattempts = {}\n", recipe.seed, recipe.attempts)
-      << fmt::format("\n[bin]\n{}", fields_text(bin_fields, recipe.bin))
-      << fmt::format("\n[scanner]\n{}", scanner_text(recipe.camera))
-      << fmt::format("\n[settle]\n{}", fields_text(settle_fields, recipe.settle))
-      << fmt::format("\n[output]\n{}", fields_text(output_fields, recipe.output));
-  for (const SetRecipe& set : recipe.sets) out << set_text(set);
+  out << text_of(recipe);
 }
 
 }  // namespace tanglebin

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
@@ -109,6 +111,38 @@ void validate_number_of_cases(const std::vector<SetRecipe>& sets) {
   }
 }
 
+// A scanner's folder is beside those of the other kinds of files.
+constexpr std::array<std::string_view, 6> folders_of_kinds{
+    "plys", "pcds", "depths", "labels", "tube_configurations", "gazebo_worlds"};
+
+// An error's field says which scanner's it is.
+void validate_scanner(const Scanner& scanner, const std::string& where) {
+  try {
+    validate(scanner.camera);
+    validate(scanner.sensor);
+  } catch (const InputError& error) {
+    const std::string& field = error.place().field;
+    const std::string problem = std::string(error.what()).substr(field.size() + 2);
+    throw InputError({"", 0, where + field.substr(field.find('.'))}, problem);
+  }
+}
+
+void validate_scanners(const Recipe& recipe) {
+  const std::vector<Scanner> all = scanners(recipe);
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Scanner& scanner = all[i];
+    const std::string where = recipe.scanner_name.empty() ? "scanner" : fmt::format("scanner[{}]", i);
+    validate_scanner(scanner, where);
+    if (all.size() == 1 && scanner.name.empty()) return;
+    validate_name(scanner.name, where + ".name");
+    expect(std::ranges::find(folders_of_kinds, scanner.name) == folders_of_kinds.end(), where + ".name",
+           excerpt(scanner.name), "a name that is no other folder's");
+    expect(names.insert(scanner.name).second, where + ".name", excerpt(scanner.name) + " a second time",
+           "names that differ");
+  }
+}
+
 }  // namespace
 
 void validate(const Recipe& recipe) {
@@ -116,7 +150,7 @@ void validate(const Recipe& recipe) {
          fmt::format("at most {}", std::numeric_limits<std::int64_t>::max()));
   expect(recipe.attempts >= 1, "attempts", fmt::format("{}", recipe.attempts), "at least 1");
   validate(recipe.bin);
-  validate(recipe.camera);
+  validate_scanners(recipe);
   validate(recipe.settle);
   expect(!recipe.sets.empty(), "set", "none", "at least one [[set]]");
   for (std::size_t i = 0; i < recipe.sets.size(); ++i) validate_set(recipe.sets[i], recipe.bin, place(i));

@@ -63,6 +63,15 @@ void round_to_nanometres(std::vector<Tube>& tubes) {
   }
 }
 
+// The noise of each scanner follows from the scene's seed and the scanner's name.
+std::vector<Scan> scan_with_all(const Recipe& recipe, const std::vector<Tube>& tubes, std::uint64_t seed) {
+  std::vector<Scan> scans;
+  for (const Scanner& scanner : scanners(recipe)) {
+    scans.push_back(scan(tubes, recipe.bin, scanner.camera, scanner.sensor, scan_seed(seed, scanner.name)));
+  }
+  return scans;
+}
+
 std::string no_valid_scene(const CaseId& id, const std::vector<Rejection>& rejections) {
   // Faults that differ only in their numbers are one kind.
   std::map<std::string, int> counts;
@@ -79,6 +88,10 @@ std::string no_valid_scene(const CaseId& id, const std::vector<Rejection>& rejec
 }
 
 }  // namespace
+
+std::uint64_t scan_seed(std::uint64_t scene_seed, std::string_view scanner) {
+  return scanner.empty() ? scene_seed : attempt_seed(scene_seed, scanner, 0, 0, 0);
+}
 
 Scene simulate(const Recipe& recipe, const CaseId& id) {
   const TubeSpec& spec = spec_of(recipe, id.set);
@@ -100,12 +113,14 @@ Scene simulate(const Recipe& recipe, const CaseId& id) {
       continue;
     }
     round_to_nanometres(heap.tubes);
-    Scan view = [&] {
+    std::vector<Scan> scans = [&] {
       const Stopwatch watch(times.scan);
-      return scan(heap.tubes, recipe.bin, recipe.camera);
+      return scan_with_all(recipe, heap.tubes, seed);
     }();
-    return {std::move(heap.tubes), std::move(view),       seed, heap.simulated,
-            heap.largest_overlap,  std::move(rejections), times};
+    Scan first = std::move(scans.front());
+    scans.erase(scans.begin());
+    return {std::move(heap.tubes), std::move(first),     std::move(scans),      seed,
+            heap.simulated,        heap.largest_overlap, std::move(rejections), times};
   }
   throw InputError({"", 0, fmt::format("{}/{}", folder_name(id.set, id.tubes), id.number)},
                    no_valid_scene(id, rejections));

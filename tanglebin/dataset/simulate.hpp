@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tanglebin/dataset/case_id.hpp"
@@ -26,22 +27,26 @@ struct StageTimes {
   double write = 0.0;  ///< the files; simulate() leaves it 0
 };
 
-/// A valid scene: tubes at rest in the bin, and what the scanner sees of them.
+/// A valid scene: tubes at rest in the bin, and what the scanners see of them.
 struct Scene {
   std::vector<Tube> tubes;
-  Scan scan;
-  std::uint64_t seed;      ///< of the attempt that made it
-  double simulated;        ///< s, of that attempt
-  double largest_overlap;  ///< m
+  Scan scan;                        ///< by the recipe's first scanner
+  std::vector<Scan> further_scans;  ///< by its further scanners
+  std::uint64_t seed;               ///< of the attempt that made it
+  double simulated;                 ///< s, of that attempt
+  double largest_overlap;           ///< m
   std::vector<Rejection> rejections;
   StageTimes times;
 };
 
-/// Makes the scene of a case of a valid recipe: draws tubes, drops them, scans them, and draws again while
-/// the heap is not valid (settle.hpp). The scene follows from (recipe seed, set, number of tubes, case
-/// number, attempt) alone. The tubes' numbers are whole nanometres (quaternions: billionths), so that the
-/// text format holds the scene exactly. Throws InputError when recipe.attempts have failed, with what they
-/// failed by.
+/// Makes the scene of a case of a valid recipe without random numbers (resolve()): draws tubes, drops them,
+/// scans them, and draws again while the heap is not valid (settle.hpp). The scene follows from (recipe seed,
+/// set, number of tubes, case number, attempt) alone. The tubes' numbers are whole nanometres (quaternions:
+/// billionths), so that the text format holds the scene exactly. Throws InputError when recipe.attempts have
+/// failed, with what they failed by.
 Scene simulate(const Recipe& recipe, const CaseId& id);
+
+/// What the noise of a scanner follows from: the scene's seed, for a scanner with a name hashed with it.
+std::uint64_t scan_seed(std::uint64_t scene_seed, std::string_view scanner);
 
 }  // namespace tanglebin

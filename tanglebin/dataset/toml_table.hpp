@@ -51,6 +51,9 @@ public:
   /// The tables of the array under `key`; none where there is none.
   std::vector<TomlTable> tables(std::string_view key) const;
 
+  /// Is there an array under `key`?
+  bool is_array(std::string_view key) const { return has(key) && find(key)->is_array(); }
+
   const std::string& file() const { return file_; }
 
   /// Where a key's value begins; where the table begins for a key that is not there.

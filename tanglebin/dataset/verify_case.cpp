@@ -54,6 +54,20 @@ std::string fault_of_png(const std::string& bytes, int width, int height) {
   return png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0 ? image.message : "";
 }
 
+// The camera of the scanner in whose folder the file is.
+const Camera& camera_of(const Recipe& recipe, const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().parent_path().filename().string();
+  const auto found = std::ranges::find(recipe.further_scanners, folder, &Scanner::name);
+  return found == recipe.further_scanners.end() ? recipe.camera : found->camera;
+}
+
+// How many points the manifest says that this scanner's cloud has.
+std::size_t points_of(const CaseRecord& record, const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().parent_path().filename().string();
+  const auto found = std::ranges::find(record.scanners, folder, &ScannerRecord::name);
+  return found == record.scanners.end() ? record.points : found->points;
+}
+
 /// One case under inspection.
 class Inspection {
 public:
@@ -119,15 +133,16 @@ private:
     } else if (path.ends_with(".json")) {
       if (!nlohmann::json::accept(bytes)) add(path, "not JSON");
     } else if (path.ends_with(".png")) {
-      const std::string fault = fault_of_png(bytes, recipe_.camera.width, recipe_.camera.height);
+      const Camera& camera = camera_of(recipe_, path);
+      const std::string fault = fault_of_png(bytes, camera.width, camera.height);
       if (!fault.empty()) add(path, fault);
     }
   }
 
   void inspect_cloud(const std::string& path, const PointCloud& cloud) {
-    if (cloud.points.size() != record_.points) {
-      add(path, fmt::format("found {} points, expected {}, as the manifest says", cloud.points.size(),
-                            record_.points));
+    if (const std::size_t expected = points_of(record_, path); cloud.points.size() != expected) {
+      add(path,
+          fmt::format("found {} points, expected {}, as the manifest says", cloud.points.size(), expected));
     }
     inspect_cloud_labels(path, cloud);
   }
@@ -184,7 +199,8 @@ private:
 
 std::vector<DatasetFault> faults_of_case(const fs::path& directory, const Recipe& recipe,
                                          const CaseRecord& record, bool rest) {
-  Inspection inspection(directory, recipe, record);
+  const Recipe drawn = resolve(recipe, record.drawn);
+  Inspection inspection(directory, drawn, record);
   inspection.inspect_files();
   inspection.inspect_heap(rest);
   return inspection.take_faults();

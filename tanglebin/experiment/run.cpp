@@ -42,7 +42,7 @@ PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int
 Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run, std::uint64_t seed) {
   const CaseId& id = run.scene;
   constexpr int no_attempt = 0;  // of a scene's: these count from 1, so the model's seed is never one of them
-  return model_tubes(data.cloud, known_scene(dataset.recipe, id), run.method, run.ratio,
+  return model_tubes(data.cloud, known_scene(recipe_of(dataset, id), id), run.method, run.ratio,
                      attempt_seed(seed, id.set, id.tubes, id.number, no_attempt), data.cloud_file);
 }
 

@@ -56,10 +56,13 @@ Camera camera_preset(std::string_view name) {
   constexpr int width = 1920;
   constexpr int height = 1200;
   const Vector3d position(0, 0, 2);
-  if (name == "paper") return downward_camera(width, height, focal_length_from_hfov(width, 1.22), position);
+  if (name == "paper" || name == "gaussian") {
+    return downward_camera(width, height, focal_length_from_hfov(width, 1.22), position);
+  }
   if (name == "zivid-one-plus-l") return downward_camera(width, height, 2730, position);
+  if (name == "kinect-v1") return downward_camera(640, 480, 585, Vector3d(0, 0, 1));
   throw InputError({.file = "", .line = 0, .field = "scanner"}, "\"" + std::string(name) + "\"",
-                   "\"paper\" or \"zivid-one-plus-l\"");
+                   "\"paper\", \"gaussian\", \"zivid-one-plus-l\" or \"kinect-v1\"");
 }
 
 Ray ray_through(const Camera& camera, double u, double v) {

@@ -28,8 +28,10 @@ Camera downward_camera(int width, int height, double focal_length_px, const Eige
 /// Focal length in pixels of an image `width` pixels wide that spans `hfov` radians, 0 < hfov < π.
 double focal_length_from_hfov(int width, double hfov);
 
-/// "paper": 1920 x 1200, 1.22 rad, 2 m above the floor (Section 6.1 and the published worlds).
+/// Where each of the scanners stands and how it sees; sensor_preset() tells what it makes of it.
+/// "paper", "gaussian": 1920 x 1200, 1.22 rad, 2 m above the floor (Section 6.1 and the published worlds).
 /// "zivid-one-plus-l": the same place and size, focal length 2730 px (38.7° x 24.8°).
+/// "kinect-v1": 640 x 480, focal length 585 px (57.4° x 44.6°), 1 m above the floor.
 /// Throws InputError for another name.
 Camera camera_preset(std::string_view name);
 

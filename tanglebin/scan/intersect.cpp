@@ -77,6 +77,10 @@ std::optional<SurfaceHit> ray_capsule(const Ray& ray, const Capsule& capsule) {
   return SurfaceHit{hit + shift, (point - along * half_axis) / radius};
 }
 
+double incidence_of(const Ray& ray, const Vector3d& normal) {
+  return std::acos(std::clamp(-normal.dot(ray.direction), -1.0, 1.0));
+}
+
 std::optional<SurfaceHit> ray_box(const Ray& ray, const Eigen::AlignedBox3d& box) {
   Interval t = {-infinity, infinity};
   Eigen::Index enter_axis = 0;

@@ -20,7 +20,10 @@ struct SurfaceHit {
 /// lies within 1e-12 m of the surface, also at grazing incidence and along the axis.
 std::optional<SurfaceHit> ray_capsule(const Ray& ray, const Capsule& capsule);
 
-/// The same for an axis-aligned box. A ray that lies in the plane of a face touches the box.
+/// rad, between a surface's normal and the direction back along the ray.
+double incidence_of(const Ray& ray, const Eigen::Vector3d& normal);
+
+/// The same as ray_capsule() for an axis-aligned box. A ray that lies in the plane of a face touches the box.
 std::optional<SurfaceHit> ray_box(const Ray& ray, const Eigen::AlignedBox3d& box);
 
 }  // namespace tanglebin

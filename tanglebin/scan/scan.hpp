@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "tanglebin/scan/camera.hpp"
@@ -20,7 +21,8 @@ struct PixelWindow {
   int height = 0;
 };
 
-/// What the ray through one pixel met. All but `label` are NaN where it met nothing.
+/// What the ray through one pixel met. All but `label` are NaN where it met nothing, or was not measured.
+/// Depth, range and point are as measured; normal and incidence are the surface's true ones.
 struct Pixel {
   float depth;             ///< m, along the camera's z axis
   float range;             ///< m, from the camera's centre to the point
@@ -37,15 +39,30 @@ struct Scan {
   PixelWindow window;
   std::vector<Pixel> pixels;  ///< window.width * window.height
 
+  // Of a scan by a sensor; empty where the scanner is ideal
+  std::vector<float> snr{};  ///< of each pixel: the signal-to-noise ratio, relative to `Sensor::snr`'s
+  std::vector<std::uint8_t> mixed{};  ///< of each pixel: 1 where it is the mean of several surfaces
+
   /// The pixel in column u, row v of the whole image; (u, v) must lie in the window.
   const Pixel& at(int u, int v) const { return pixels[index(u, v)]; }
   Pixel& at(int u, int v) { return pixels[index(u, v)]; }
 
-private:
+  /// Where the arrays have that pixel.
   std::size_t index(int u, int v) const {
     return static_cast<std::size_t>(v - window.top) * static_cast<std::size_t>(window.width) +
            static_cast<std::size_t>(u - window.left);
   }
 };
+
+/// The pixel of a ray that met nothing.
+inline Pixel empty_pixel() {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  return {.depth = nan,
+          .range = nan,
+          .point = Eigen::Vector3f::Constant(nan),
+          .normal = Eigen::Vector3f::Constant(nan),
+          .incidence = nan,
+          .label = null_label};
+}
 
 }  // namespace tanglebin

@@ -74,6 +74,43 @@ TEST_F(ScanCommand, WritesAnOrganizedCloudImagesAndTheirCamera) {
   EXPECT_EQ(camera["intrinsic_matrix"][0], 2730.0);
 }
 
+TEST_F(ScanCommand, SeesLikeARealScannerWhereAsked) {
+  const std::string command = "scan " + configuration_.string() + " --with-bin --out ";
+  const std::string ideal = (directory_ / "ideal.ply").string();
+  const std::string noisy = (directory_ / "noisy.ply").string();
+  const std::string picture = (directory_ / "picture.png").string();
+  run_program(command + ideal);
+  const auto result =
+      run_program(command + noisy + " --set scanner.dropout=0.5 --set scanner.edges=drop --seed 1f" +
+                  " --normals --intensities --mixed --picture " + picture);
+  EXPECT_EQ(result.status, 0) << result.err;
+  const PointCloud cloud = read_ply(noisy);
+  EXPECT_NEAR(static_cast<double>(cloud.points.size()) / static_cast<double>(read_ply(ideal).points.size()),
+              0.5, 0.02);
+  EXPECT_EQ(cloud.normals.size(), cloud.points.size());
+  EXPECT_THAT(cloud.intensities, Each(1.0F));
+  EXPECT_THAT(cloud.mixed, Each(0));
+  EXPECT_EQ(bytes_of(picture).substr(1, 3), "PNG");
+  EXPECT_EQ(run_program(command + "- --scanner zivid-one-plus-l --seed 1").out,
+            run_program(command + "- --scanner zivid-one-plus-l --seed 1").out);
+}
+
+TEST_F(ScanCommand, NamesTheSettingThatIsWrong) {
+  const auto said = [&](const std::string& options) {
+    const auto result = run_program("scan " + configuration_.string() + " --out " +
+                                    (directory_ / "cloud.ply").string() + " " + options);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "cloud.ply"));
+    return result.err;
+  };
+  EXPECT_THAT(said("--set scanner.sigma=0.1 --set scanner.baseline=0"),
+              HasSubstr("--set:2: scanner.baseline: found 0, expected a positive distance"));
+  EXPECT_THAT(said("--set scanner.snr=-1"), HasSubstr("scanner.snr: found -1"));
+  EXPECT_THAT(said("--set scanner.focal_length_px=0"), HasSubstr("scanner.focal_length_px: found 0"));
+  EXPECT_THAT(said("--set scanner.edges=blur"), HasSubstr("\"keep\", \"drop\" or \"mix\""));
+  EXPECT_THAT(said("--seed 0x1"), HasSubstr("--seed: found \"0x1\""));
+}
+
 TEST_F(ScanCommand, StandardInputAndOutputTakeAndGiveTheSame) {
   const std::string file = (directory_ / "cloud.ply").string();
   run_program("scan " + configuration_.string() + " --out " + file);

@@ -101,5 +101,40 @@ TEST(PointCloud, HasAsManyOfEverythingAndKnownLabels) {
   EXPECT_THROW(check_cloud(wide), std::invalid_argument);
 }
 
+Scan scan_of_two_pixels() {
+  Scan scan{.camera = downward_camera(3, 1, 100, {0, 0, 1}),
+            .window = {.left = 0, .top = 0, .width = 2, .height = 1},
+            .pixels = {empty_pixel(), empty_pixel()}};
+  scan.pixels[1].label = 1;
+  scan.pixels[1].point = {1, 2, 3};
+  scan.pixels[1].normal = {0, 0, 1};
+  return scan;
+}
+
+TEST(Cloud, HasThePropertiesThatAreAskedFor) {
+  Scan scan = scan_of_two_pixels();
+  const PointProperties all{.normals = true, .intensities = true, .mixed = true};
+  EXPECT_TRUE(cloud_from_scan(scan, CloudOf::tubes, 1).normals.empty());
+  const PointCloud ideal = cloud_from_scan(scan, CloudOf::tubes, 1, all);
+  EXPECT_EQ(ideal.normals, std::vector{Eigen::Vector3f(0, 0, 1)});
+  EXPECT_EQ(ideal.intensities, std::vector{1.0F}) << "an ideal scanner's signal-to-noise ratio";
+  EXPECT_EQ(ideal.mixed, std::vector<std::uint8_t>{0});
+
+  scan.snr = {0, 0.5F};
+  scan.mixed = {0, 1};
+  const PointCloud organized = organized_cloud_from_scan(scan, CloudOf::tubes, 1, all);
+  EXPECT_NO_THROW(check_cloud(organized));
+  EXPECT_EQ(organized.intensities, (std::vector{0.0F, 0.5F, 0.0F}));
+  EXPECT_EQ(organized.mixed, (std::vector<std::uint8_t>{0, 1, 0}));
+  EXPECT_TRUE(organized.normals[0].hasNaN());
+}
+
+TEST(Cloud, PropertiesMustBeAsManyAsPoints) {
+  const Scan scan = scan_of_two_pixels();
+  PointCloud cloud = cloud_from_scan(scan, CloudOf::tubes, 1);
+  cloud.intensities = {1, 2};
+  EXPECT_THROW(check_cloud(cloud), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace tanglebin

@@ -407,5 +407,22 @@ TEST(ReadPcd, ComplainsOfAFileCutAnywhere) {
   }
 }
 
+TEST(Pcd, KeepsNormalsIntensitiesAndMixedPoints) {
+  PointCloud cloud;
+  cloud.points = {{1, 2, 3}, {4, 5, 6}};
+  cloud.width = 2;
+  cloud.normals = {{0, 0, 1}, {0, -1, 0}};
+  cloud.labels = {1, 0};
+  cloud.intensities = {0.5F, 2.25F};
+  cloud.mixed = {0, 1};
+  std::stringstream file;
+  write_pcd(file, cloud);
+  const PointCloud read = read_pcd(file, "cloud");
+  EXPECT_EQ(read.normals, cloud.normals);
+  EXPECT_EQ(read.labels, cloud.labels);
+  EXPECT_EQ(read.intensities, cloud.intensities);
+  EXPECT_EQ(read.mixed, cloud.mixed);
+}
+
 }  // namespace
 }  // namespace tanglebin

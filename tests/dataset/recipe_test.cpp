@@ -204,11 +204,95 @@ TEST(Recipe, WritesEverySettingThatThereIs) {
   EXPECT_EQ(keys(text, "bin").size(), settings<Bin>());
   EXPECT_EQ(keys(text, "settle").size(), settings<SettleSettings>())
       << "a setting has no line in settle_fields (recipe.cpp)";
-  EXPECT_EQ(keys(text, "output").size(), settings<OutputSettings>());
+  EXPECT_EQ(keys(text, "output").size(), settings<OutputSettings>() - 1)
+      << "properties have keys of their own";
   EXPECT_EQ(keys(write(read(tree)), "[set.tube.segment]").size(), settings<Segment>());
   EXPECT_THAT(keys(text, "scanner"),
               ElementsAre("width", "height", "fx", "fy", "cx", "cy", "position", "rotation_matrix"));
   EXPECT_THAT(text, ::testing::Not(HasSubstr("preset =")));
+}
+
+TEST(Recipe, OneWordChoosesBetweenTheIdealScannerAndABelievableOne) {
+  EXPECT_EQ(read(smallest).sensor, Sensor{});
+  EXPECT_EQ(read("[scanner]\npreset = \"paper\"\n" + smallest).sensor, Sensor{});
+  const Recipe zivid = read("[scanner]\npreset = \"zivid-one-plus-l\"\n" + smallest);
+  EXPECT_EQ(zivid.sensor, sensor_preset("zivid-one-plus-l"));
+  EXPECT_EQ(zivid.camera.fx, 2730.0);
+}
+
+TEST(Recipe, SwitchesTheTermsOfAScannerOneByOne) {
+  const Sensor sensor =
+      read("[scanner]\nsigma = 0.0002\ndropout = 0.05\nedges = \"drop\"\nsub_rays = 2\n" + smallest).sensor;
+  EXPECT_EQ(sensor, (Sensor{.sigma = 0.0002, .dropout = 0.05, .edges = Edges::drop, .sub_rays = 2}));
+  Sensor no_shadows = sensor_preset("zivid-one-plus-l");
+  no_shadows.shadows = false;
+  EXPECT_EQ(read("[scanner]\npreset = \"zivid-one-plus-l\"\nshadows = false\n" + smallest).sensor,
+            no_shadows);
+  EXPECT_EQ(complaint("[scanner]\nedges = \"blur\"\n" + smallest),
+            "r.toml:2: scanner.edges: found 'blur', expected \"keep\", \"drop\" or \"mix\"");
+  EXPECT_THAT(complaint("[scanner]\n\nbaseline = 0\n" + smallest),
+              HasSubstr("r.toml:3: scanner.baseline: found 0, expected a positive distance"));
+}
+
+TEST(Recipe, WritesEveryTermOfAScannerThatIsNotIdeal) {
+  const Recipe zivid = read("[scanner]\npreset = \"zivid-one-plus-l\"\nbaseline = 0.3\n" + smallest);
+  const std::string text = write(zivid);
+  EXPECT_EQ(keys(text, "scanner").size(), 8 + settings<Sensor>())
+      << "a setting has no line in sensor_fields (recipe.cpp)";
+  EXPECT_EQ(read(text).sensor, zivid.sensor);
+}
+
+TEST(Recipe, TheCommandLineSetsWhatARecipesScannerHas) {
+  const Scanner scanner = scanner_with("paper", {"scanner.sigma=0.0002", "scanner.edges=drop"}, "--set");
+  EXPECT_EQ(scanner.sensor, (Sensor{.sigma = 0.0002, .edges = Edges::drop}));
+  EXPECT_EQ(scanner.camera.fx, camera_preset("paper").fx);
+  const auto said = [](const std::string& setting) {
+    return test::complaint([&] { scanner_with("paper", {"scanner.sigma=0.0002", setting}, "--set"); });
+  };
+  EXPECT_THAT(said("scanner.baseline=0"), HasSubstr("--set:2: scanner.baseline: found 0"));
+  EXPECT_THAT(said("scanner.focal_length_px=0"), HasSubstr("--set:2: scanner.focal_length_px: found 0"));
+  EXPECT_THAT(said("scanner.basline=0.1"), HasSubstr("did you mean 'baseline'?"));
+  EXPECT_THAT(said("bin.length=1"), HasSubstr("unknown key 'bin'"));
+}
+
+const std::string two_scanners =
+    "[[scanner]]\nname = \"above\"\n[[scanner]]\nname = \"beside\"\npreset = \"zivid-one-plus-l\"\n"
+    "position = [0, 1, 1.5]\nlook_at = [0, 0, 0.1]\n";
+
+TEST(Recipe, HasSeveralScannersAndPosesForOneScene) {
+  const Recipe recipe = read(two_scanners + smallest);
+  EXPECT_EQ(recipe.scanner_name, "above");
+  EXPECT_EQ(recipe.sensor, Sensor{});
+  ASSERT_EQ(recipe.further_scanners.size(), 1U);
+  const Scanner& beside = recipe.further_scanners[0];
+  EXPECT_EQ(beside.name, "beside");
+  EXPECT_EQ(beside.sensor, sensor_preset("zivid-one-plus-l"));
+  const Eigen::Vector3d target(0, 0, 0.1);
+  EXPECT_TRUE((*project(beside.camera, target)).isApprox(Eigen::Vector2d(959.5, 599.5)));
+  EXPECT_TRUE(beside.camera.pose.linear().col(0).isApprox(Eigen::Vector3d::UnitX()));
+  EXPECT_EQ(write(read(write(recipe))), write(recipe));
+}
+
+TEST(Recipe, SaysWhichOfSeveralScannersIsWrong) {
+  EXPECT_THAT(complaint(two_scanners + "baseline = 0\n" + smallest),
+              HasSubstr("r.toml:8: scanner[1].baseline: found 0"));
+  EXPECT_THAT(complaint_after("\"beside\"", "\"above\"", two_scanners + smallest),
+              HasSubstr("r.toml:4: scanner[1].name: found 'above' a second time"));
+  EXPECT_THAT(complaint_after("\"beside\"", "\"plys\"", two_scanners + smallest),
+              HasSubstr("scanner[1].name: found 'plys', expected a name that is no other folder's"));
+  EXPECT_THAT(complaint("[[scanner]]\npreset = \"paper\"\n" + smallest),
+              HasSubstr("scanner[0].name: is missing"));
+  EXPECT_THAT(complaint("[scanner]\nlook_at = [1, 0, 2]\n" + smallest),
+              HasSubstr("along the world's x axis"));
+  EXPECT_THAT(complaint("[scanner]\nlook_at = [0, 0, 2]\n" + smallest), HasSubstr("or nowhere"));
+}
+
+TEST(Recipe, WritesThePropertiesOfPointsWhereAnyIsAskedFor) {
+  EXPECT_THAT(write(read(smallest)), ::testing::Not(HasSubstr("normals")));
+  const Recipe recipe = read("[output]\nintensities = true\n" + smallest);
+  EXPECT_EQ(recipe.output.properties, (PointProperties{.intensities = true}));
+  EXPECT_EQ(read(write(recipe)).output.properties, recipe.output.properties);
+  EXPECT_EQ(keys(write(recipe), "output").size(), 5 + settings<PointProperties>());
 }
 
 TEST(Recipe, WritesDegreesAsAPersonWould) {
@@ -430,7 +514,8 @@ TEST(RecipeErrors, GuessWhatAnUnknownKeyMeans) {
   EXPECT_EQ(complaint_after("to = 3", "too = 3", tree),
             "r.toml:14: set[0].tube.segment[1]: unknown key 'too', did you mean 'to'?");
   EXPECT_EQ(complaint("[output]\nply = true\n" + smallest),
-            "r.toml:2: output: unknown key 'ply', expected one of bin_points, worlds, pcds, depths, labels");
+            "r.toml:2: output: unknown key 'ply', expected one of bin_points, worlds, pcds, depths, labels, "
+            "normals, intensities, mixed");
   EXPECT_EQ(complaint("\"a\\nb\" = 1\n" + smallest),
             "r.toml:1: unknown key 'a?b', expected one of seed, attempts, bin, scanner, settle, output, set");
 }

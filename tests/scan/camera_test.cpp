@@ -48,7 +48,9 @@ TEST(Camera, AnUnknownPresetIsNamedTogetherWithTheKnownOnes) {
     camera_preset("eye");
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "scanner: found \"eye\", expected \"paper\" or \"zivid-one-plus-l\"");
+    EXPECT_STREQ(
+        error.what(),
+        "scanner: found \"eye\", expected \"paper\", \"gaussian\", \"zivid-one-plus-l\" or \"kinect-v1\"");
   }
 }
 
@@ -91,7 +93,8 @@ TEST(Camera, PointsOnThePixelsRayProjectOntoThePixel) {
 }
 
 TEST(Camera, ValidationNamesTheFieldThatMakesNoCamera) {
-  for (const char* name : {"paper", "zivid-one-plus-l"}) EXPECT_NO_THROW(validate(camera_preset(name)));
+  for (const char* name : {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1"})
+    EXPECT_NO_THROW(validate(camera_preset(name)));
   const auto rejected_field = [](const std::function<void(Camera&)>& spoil) -> std::string {
     Camera camera = camera_preset("paper");
     spoil(camera);

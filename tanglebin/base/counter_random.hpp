@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+
+namespace tanglebin {
+
+/// SplitMix64's finalizer (Steele, Lea, Flood 2014): spreads every input bit over the whole word.
+constexpr std::uint64_t mix_bits(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+  return x ^ (x >> 31);
+}
+
+/// The number below which a standard normal variable lies with probability p, 0 < p < 1. Wichura's AS 241
+/// (1988), relative error about 1e-16.
+double normal_quantile(double p);
+
+/// Random numbers that are looked up by a counter instead of drawn one after the other: number i of a stream
+/// is SplitMix64's i-th output, so that it depends neither on which others were asked for nor on the order.
+/// Streams of different seeds or terms are unrelated.
+class CounterRandom {
+public:
+  CounterRandom(std::uint64_t seed, std::uint64_t term)
+      : key_(mix_bits(mix_bits(seed) + golden * (term + 1))) {}
+
+  std::uint64_t bits(std::uint64_t counter) const { return mix_bits(key_ + golden * (counter + 1)); }
+
+  /// Uniform in (0, 1), neither end in it.
+  double uniform(std::uint64_t counter) const {
+    return (static_cast<double>(bits(counter) >> 11) + 0.5) * 0x1p-53;
+  }
+
+  /// Standard normal.
+  double normal(std::uint64_t counter) const { return normal_quantile(uniform(counter)); }
+
+private:
+  static constexpr std::uint64_t golden = 0x9e3779b97f4a7c15U;
+  std::uint64_t key_;
+};
+
+}  // namespace tanglebin

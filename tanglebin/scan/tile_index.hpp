@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/scan/capsule_index.hpp"
+#include "tanglebin/scan/intersect.hpp"
+#include "tanglebin/scan/scan.hpp"
+#include "tanglebin/settle/bin.hpp"
+#include "tanglebin/tube/tube.hpp"
+
+namespace tanglebin {
+
+// Internal to the room: what a scene's rays can meet, and how to look it up for many rays at once.
+
+/// The capsules of all tubes and the boxes of the bin.
+struct Surfaces {
+  std::array<Eigen::AlignedBox3d, 5> boxes;
+  std::vector<Capsule> capsules;
+  std::vector<std::int32_t> labels;  ///< of the capsules
+};
+
+Surfaces surfaces_of(const std::vector<Tube>& tubes, const Bin& bin);
+
+/// The pixels onto which the scene projects; all of them where it is only partly in front of the camera.
+PixelWindow window_of(const Surfaces& surfaces, const Camera& camera);
+
+/// What the rays of a tile may meet: indices into the surfaces' arrays.
+struct Candidates {
+  std::vector<std::size_t> boxes;
+  std::vector<std::size_t> capsules;
+};
+
+struct LabelledHit {
+  SurfaceHit surface;
+  std::int32_t label;
+};
+
+/// What the ray meets first. Of surfaces at the same distance: the bin, then the tubes in their order.
+std::optional<LabelledHit> first_hit(const Surfaces& surfaces, const Candidates& candidates, const Ray& ray);
+
+/// Does the ray meet anything closer than `distance`?
+bool is_blocked(const Surfaces& surfaces, const Candidates& candidates, const Ray& ray, double distance);
+
+/// Finds the candidates of square tiles of an image. The rays of a tile meet nearly the same things, so what
+/// they may meet is looked up once for all of them.
+class TileIndex {
+public:
+  /// For rays through image coordinates up to `margin` pixels outside of a tile's outermost pixel centres.
+  TileIndex(const Surfaces& surfaces, const Camera& camera, double margin);
+
+  int tile_size() const { return tile_size_; }  ///< pixels
+
+  /// Of the tile whose first pixel is in column `left` and row `top`.
+  void find(int left, int top, Candidates& found) const;
+
+private:
+  TileIndex(const Surfaces& surfaces, const Camera& camera, double margin, int tile_size);
+
+  const Camera& camera_;
+  int tile_size_;
+  CapsuleIndex capsule_index_;
+  std::array<Eigen::AlignedBox3d, 5> thick_boxes_;
+};
+
+}  // namespace tanglebin

@@ -1,0 +1,152 @@
+#include "tanglebin/dataset/randomization.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/complaint.hpp"
+#include "tests/support/statistics.hpp"
+
+namespace tanglebin {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string sets =
+    "[[set]]\nname = \"A\"\ntubes = [1, 3]\n[set.tube]\nradius = { min = 0.008, max = 0.0125 }\nmass = 0.5\n"
+    "length = 0.5\nbend_max_deg = 30\ncylinders_max = { min = 6, max = 8 }\n"
+    "[[set]]\nname = \"B\"\ntubes = [2]\n[set.tube]\nradius = 0.0125\nmass = { one_of = [0.4, 0.5] }\n"
+    "length = 0.5\nbend_max_deg = 45\n";
+
+const std::string scanner =
+    "[scanner]\npreset = \"zivid-one-plus-l\"\nbaseline = { min = 0.1, max = 0.3 }\n"
+    "hfov_deg = { min = 30, max = 60 }\n"
+    "position = [{ min = -0.2, max = 0.2 }, 0, { one_of = [1.5, 2] }]\nlook_at = [0, 0, 0.1]\n";
+
+Recipe read(const std::string& text) {
+  std::istringstream in(text);
+  return read_recipe(in, "r.toml");
+}
+
+std::string write(const Recipe& recipe) {
+  std::ostringstream out;
+  write_recipe(out, recipe);
+  return out.str();
+}
+
+std::string complaint(const std::string& text) {
+  return test::complaint([&] { read(text); });
+}
+
+std::map<std::string, double> drawn(const Recipe& recipe, const CaseId& id) {
+  std::map<std::string, double> numbers;
+  for (const DrawnNumber& number : draw(recipe, id)) numbers[number.path] = number.value;
+  return numbers;
+}
+
+TEST(Randomization, NumbersAreDrawnForEachCaseFromItsNameAlone) {
+  const Recipe recipe = read("seed = 3\n" + scanner + sets);
+  const auto first = drawn(recipe, {"A", 3, 1});
+  EXPECT_EQ(drawn(recipe, {"A", 3, 1}), first);
+  EXPECT_EQ(first.size(), 6U) << "without those of set B's tubes";
+  EXPECT_TRUE(first.contains("set[0].tube.radius"));
+  EXPECT_TRUE(drawn(recipe, {"B", 2, 1}).contains("set[1].tube.mass"));
+  EXPECT_NE(drawn(recipe, {"A", 3, 2}).at("scanner.baseline"), first.at("scanner.baseline"));
+  EXPECT_NE(drawn(recipe, {"A", 1, 1}).at("scanner.baseline"), first.at("scanner.baseline"));
+  EXPECT_NE(drawn(read("seed = 4\n" + scanner + sets), {"A", 3, 1}).at("scanner.baseline"),
+            first.at("scanner.baseline"));
+}
+
+TEST(Randomization, ACasesRecipeHasTheDrawnNumbersAndNothingRandom) {
+  const Recipe recipe = read(scanner + sets);
+  for (int number = 1; number <= 20; ++number) {
+    const std::vector<DrawnNumber> numbers = draw(recipe, {"A", 3, number});
+    const auto by_path = drawn(recipe, {"A", 3, number});
+    const Recipe resolved = resolve(recipe, numbers);
+    EXPECT_TRUE(resolved.random.empty());
+    EXPECT_EQ(resolved.sensor.baseline, by_path.at("scanner.baseline"));
+    EXPECT_EQ(resolved.camera.pose.translation().x(), by_path.at("scanner.position[0]"));
+    EXPECT_EQ(resolved.camera.pose.translation().z(), by_path.at("scanner.position[2]"));
+    EXPECT_EQ(resolved.sets[0].spec.radius, by_path.at("set[0].tube.radius"));
+    EXPECT_EQ(resolved.sets[0].spec.segments[0].cylinders_max, by_path.at("set[0].tube.cylinders_max"));
+    EXPECT_NEAR(std::atan(960 / resolved.camera.fx) * 360 / 3.14159265358979, by_path.at("scanner.hfov_deg"),
+                1e-9);
+    EXPECT_NEAR((*project(resolved.camera, {0, 0, 0.1}) - Eigen::Vector2d(959.5, 599.5)).norm(), 0, 1e-9)
+        << "looks where it is to look, wherever it stands";
+    EXPECT_EQ(resolved.sensor.disparity_sigma, 0.04) << "what is not drawn is the preset's";
+  }
+}
+
+TEST(Randomization, RangesAreUniformAndListsFair) {
+  const Recipe recipe = read(scanner + sets);
+  std::vector<double> baselines;
+  std::vector<std::size_t> cylinders(3);
+  std::vector<std::size_t> heights(2);
+  for (int number = 1; number <= 600; ++number) {
+    const auto numbers = drawn(recipe, {"A", 1, number});
+    baselines.push_back(numbers.at("scanner.baseline"));
+    ++cylinders.at(static_cast<std::size_t>(numbers.at("set[0].tube.cylinders_max")) - 6);
+    ++heights.at(numbers.at("scanner.position[2]") == 2 ? 1 : 0);
+  }
+  EXPECT_GT(test::uniform_p(baselines, 0.1, 0.3), test::significance);
+  EXPECT_GT(test::equal_counts_p(cylinders), test::significance);
+  EXPECT_GT(test::equal_counts_p(heights), test::significance);
+}
+
+TEST(Randomization, TheResolvedRecipeKeepsWhatIsDrawn) {
+  for (const std::string& text :
+       {scanner + sets,
+        "[bin]\nheight = { min = 0.2, max = 0.3 }\n[settle]\nfriction = { one_of = [1] }\n" + sets,
+        "[scanner]\nwidth = { one_of = [960, 1920] }\nfocal_length_px = 2000\n" + sets,
+        "[scanner]\nsigma = { min = 0, max = 0.001 }\nfootprint = 2\n" + sets}) {
+    const Recipe recipe = read(text);
+    const Recipe again = read(write(recipe));
+    EXPECT_EQ(write(again), write(recipe));
+    for (const CaseId& id : {CaseId{"A", 3, 1}, CaseId{"A", 3, 2}, CaseId{"B", 2, 7}}) {
+      EXPECT_EQ(drawn(again, id), drawn(recipe, id));
+      EXPECT_EQ(write(resolve(again, draw(again, id))), write(resolve(recipe, draw(recipe, id))));
+    }
+  }
+}
+
+TEST(Randomization, ARecipeWithoutRangesDrawsNothing) {
+  const Recipe recipe = read(
+      "[[set]]\nname = \"A\"\ntubes = [1]\n[set.tube]\nradius = 0.0125\nmass = 0.5\n"
+      "length = 0.5\nbend_max_deg = 30\n");
+  EXPECT_TRUE(draw(recipe, {"A", 1, 1}).empty());
+  EXPECT_EQ(write(resolve(recipe, {})), write(recipe));
+}
+
+TEST(Randomization, SaysWhichRangeIsWrongAndWhatToDo) {
+  EXPECT_EQ(complaint("[bin]\n\nheight = { min = 0.3, max = 0.2 }\n" + sets),
+            "r.toml:3: bin.height: found min = 0.3 above max = 0.2, expected the two exchanged");
+  EXPECT_THAT(complaint("[bin]\nheight = { min = 0.3 }\n" + sets),
+              HasSubstr("r.toml:2: bin.height: found a table, expected { min = NUMBER, max = NUMBER }"));
+  EXPECT_THAT(complaint("[bin]\nheight = { one_of = [] }\n" + sets), HasSubstr("at least one of them"));
+  EXPECT_THAT(complaint("[bin]\nheight = { one_of = [\"high\"] }\n" + sets),
+              HasSubstr("found what is no number"));
+  EXPECT_THAT(complaint("[settle]\niterations = { min = 10.5, max = 20 }\n" + sets),
+              HasSubstr("settle.iterations: found 10.5, expected whole numbers"));
+  EXPECT_THAT(complaint("seed = { min = 1, max = 2 }\n" + sets),
+              HasSubstr("r.toml:1: seed: found a number to be drawn"));
+  EXPECT_THAT(complaint("[scanner]\nwidth = { one_of = [960, 1920] }\n" + sets), HasSubstr("hfov_deg"));
+}
+
+TEST(Randomization, BothEndsOfARangeMustMakeARecipe) {
+  EXPECT_THAT(complaint("[scanner]\n\nbaseline = { min = 0, max = 0.2 }\n" + sets),
+              HasSubstr("r.toml:3: scanner.baseline: found 0"));
+  EXPECT_THAT(
+      complaint("[bin]\n\nfriction = { min = 0.5, max = 1 }\nheight = { min = -1, max = 0.2 }\n" + sets),
+      HasSubstr("r.toml:4: bin.height"));
+  EXPECT_THAT(complaint("[scanner]\ndropout = { min = 0.5, max = 1 }\n" + sets),
+              HasSubstr("scanner.dropout: found 1"));
+}
+
+}  // namespace
+}  // namespace tanglebin

@@ -1,0 +1,259 @@
+#include "tanglebin/scan/measure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include "scene.hpp"
+#include "tanglebin/scan/range_error.hpp"
+#include "tanglebin/scan/scanner.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr std::uint64_t seed = 2022;
+
+/// Wide and flat: its floor fills the image.
+Bin wide_bin() {
+  return {.length = 8, .width = 8, .height = 0.01, .wall = 0.02, .friction = 1};
+}
+
+/// 120,000 pixels of a Zivid's focal length that look straight down.
+Camera camera_above(double height) {
+  return downward_camera(400, 300, 2730, Vector3d(0, 0, height));
+}
+
+/// The same at 2 m from a point of the floor, so that the floor's normal is inclined to the optical axis.
+Camera inclined_camera(double angle) {
+  Camera camera = camera_above(2);
+  camera.pose = Eigen::AngleAxisd(angle, Vector3d::UnitY()) * camera.pose;
+  return camera;
+}
+
+/// A cylinder of 0.2 m radius that fills the image.
+std::vector<Tube> thick_tube() {
+  return {test::chain(1, 0.2, {Vector3d(-3, 0, 0.3), Vector3d(3, 0, 0.3)})};
+}
+
+struct Statistics {
+  std::size_t count = 0;
+  double mean = 0;
+  double deviation = 0;
+};
+
+Statistics statistics(const std::vector<double>& values) {
+  const double n = static_cast<double>(values.size());
+  double sum = 0;
+  for (const double value : values) sum += value;
+  const double mean = sum / n;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {values.size(), mean, std::sqrt(squares / n)};
+}
+
+/// `error(measured, ideal)` of every pixel that was measured.
+template <typename Error>
+std::vector<double> errors(const Scan& measured, const Scan& ideal, const Error& error) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < measured.pixels.size(); ++i) {
+    if (measured.pixels[i].label != null_label) result.push_back(error(measured.pixels[i], ideal.pixels[i]));
+  }
+  return result;
+}
+
+double range_error(const Pixel& measured, const Pixel& ideal) {
+  return static_cast<double>(measured.range) - static_cast<double>(ideal.range);
+}
+
+/// Standard deviation within 2 %, mean within four of its standard errors.
+void expect_noise(const std::vector<double>& values, double sigma) {
+  const Statistics found = statistics(values);
+  ASSERT_GT(found.count, 20'000U);
+  EXPECT_NEAR(found.deviation, sigma, 0.02 * sigma);
+  EXPECT_LT(std::abs(found.mean), 4 * sigma / std::sqrt(static_cast<double>(found.count)));
+}
+
+std::size_t measured_pixels(const Scan& scan) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(scan.pixels, [](const Pixel& pixel) { return pixel.label != null_label; }));
+}
+
+struct View {
+  std::vector<Tube> tubes;
+  Camera camera;
+};
+
+std::vector<View> views() {
+  return {{{}, camera_above(2)},
+          {{}, camera_above(0.8)},
+          {{}, inclined_camera(30 * degree)},
+          {{}, inclined_camera(60 * degree)},
+          {thick_tube(), camera_above(2)}};
+}
+
+TEST(Measure, NothingSwitchedOnIsTheIdealScan) {
+  const auto tubes = thick_tube();
+  const Scan ideal = scan(tubes, wide_bin(), camera_above(2));
+  const Scan measured = scan(tubes, wide_bin(), camera_above(2), Sensor{}, seed);
+  ASSERT_EQ(measured.pixels.size(), ideal.pixels.size());
+  EXPECT_EQ(std::memcmp(measured.pixels.data(), ideal.pixels.data(), ideal.pixels.size() * sizeof(Pixel)), 0);
+  EXPECT_TRUE(measured.snr.empty());
+}
+
+TEST(Measure, GaussianNoiseIsAsConfiguredOnPlanesAndCylindersAtAnyDistanceAndAngle) {
+  for (const auto& [tubes, camera] : views()) {
+    const Scan ideal = scan(tubes, wide_bin(), camera);
+    expect_noise(errors(scan(tubes, wide_bin(), camera, {.sigma = 0.0005}, seed), ideal, range_error),
+                 0.0005);
+  }
+}
+
+TEST(Measure, NoiseMovesAPointAlongItsRayAlone) {
+  const Camera camera = camera_above(2);
+  const Scan measured = scan({}, wide_bin(), camera, {.sigma = 0.002}, seed);
+  for (int u = 0; u < camera.width; u += 7) {
+    const Pixel& pixel = measured.at(u, 11);
+    const Ray ray = ray_through(camera, u, 11);
+    const Vector3d expected = ray.origin + pixel.range * ray.direction;
+    EXPECT_LT((pixel.point.cast<double>() - expected).norm(), 1e-6);
+    EXPECT_NEAR(pixel.depth, 2 - expected.z(), 1e-6);
+  }
+}
+
+TEST(Measure, DisparityNoiseGrowsWithTheSquareOfTheDepth) {
+  const Sensor sensor{.disparity_sigma = 0.04};
+  EXPECT_NEAR(disparity_depth_sigma(sensor, camera_above(2), 2, 1), 0.293e-3, 0.001e-3);
+  for (const auto& [tubes, camera] : views()) {
+    const Scan ideal = scan(tubes, wide_bin(), camera);
+    const Scan measured = scan(tubes, wide_bin(), camera, sensor, seed);
+    expect_noise(errors(measured, ideal,
+                        [](const Pixel& found, const Pixel& truth) {
+                          const double z = truth.depth;
+                          return (found.depth - z) / (z * z / (2730 * 0.2) * 0.04);
+                        }),
+                 1);
+  }
+}
+
+TEST(Measure, DisparityNoiseFallsWithTheSignal) {
+  const Camera camera = camera_above(2);
+  const Scan ideal = scan({}, wide_bin(), camera);
+  const Sensor sensor{
+      .signal = true, .snr = 4, .snr_max = 100, .bin_albedo = 0.8, .bin_gloss = 0, .disparity_sigma = 0.04};
+  const Scan measured = scan({}, wide_bin(), camera, sensor, seed);
+  std::vector<double> normalized;
+  for (std::size_t i = 0; i < ideal.pixels.size(); ++i) {
+    // The floor, a matt plane: distance to the projector and the cosines of incidence are known.
+    const Vector3d point = ideal.pixels[i].point.cast<double>();
+    const double to_projector = (point - Vector3d(0.2, 0, 2)).norm();
+    const double snr = 4 * 0.8 * (2 * 2) / (to_projector * to_projector) * (2 / to_projector) *
+                       std::cos(ideal.pixels[i].incidence);
+    EXPECT_NEAR(measured.snr[i], snr, 1e-5);
+    normalized.push_back((measured.pixels[i].depth - 2.0) / (4 / (2730 * 0.2) * 0.04 / snr));
+  }
+  expect_noise(normalized, 1);
+}
+
+TEST(Measure, KinectNoiseIsNguyensOnPlanes) {
+  for (const double height : {0.8, 1.5, 3.0}) {
+    const Camera camera = camera_above(height);
+    const Scan ideal = scan({}, wide_bin(), camera);
+    const double beyond = height - 0.4;
+    expect_noise(errors(scan({}, wide_bin(), camera, {.kinect_noise = true}, seed), ideal,
+                        [](const Pixel& found, const Pixel& truth) { return found.depth - truth.depth; }),
+                 0.0012 + 0.0019 * beyond * beyond);
+  }
+  EXPECT_NEAR(kinect_axial_sigma(1, 60 * degree), 0.0012 + 0.0019 * 0.36 + 0.0001 * 4, 1e-9);
+  EXPECT_NEAR(kinect_lateral_sigma(45 * degree), 0.835, 1e-9);
+}
+
+// The camera is right above the inner face of a wall, so that the rim's edge is between two columns.
+TEST(Measure, KinectEdgesAreBlurredByTheLateralNoise) {
+  const Bin bin{.length = 1, .width = 4, .height = 0.2, .wall = 0.3, .friction = 1};
+  const Camera camera = downward_camera(60, 480, 585, Vector3d(0.5, 0, 1));
+  const Scan measured = scan({}, bin, camera, {.kinect_noise = true}, seed);
+  const boost::math::normal normal;
+  for (int u = 28; u < 32; ++u) {
+    int rim = 0;
+    for (int v = 0; v < camera.height; ++v) rim += measured.at(u, v).depth < 0.9 ? 1 : 0;
+    const double expected = boost::math::cdf(normal, (u - camera.cx) / 0.8);
+    const double error = std::sqrt(expected * (1 - expected) / camera.height);
+    EXPECT_NEAR(rim / static_cast<double>(camera.height), expected, 4 * error) << "column " << u;
+  }
+}
+
+TEST(Measure, DropsOutAsManyPixelsAsConfigured) {
+  const Camera camera = camera_above(2);
+  for (const double share : {0.01, 0.1, 0.5}) {
+    const std::size_t pixels = scan({}, wide_bin(), camera).pixels.size();
+    const double lost =
+        static_cast<double>(pixels - measured_pixels(scan({}, wide_bin(), camera, {.dropout = share}, seed)));
+    const boost::math::binomial binomial(static_cast<double>(pixels), share);
+    EXPECT_GT(lost, boost::math::quantile(binomial, 1e-4));
+    EXPECT_LT(lost, boost::math::quantile(boost::math::complement(binomial, 1e-4)));
+  }
+}
+
+TEST(Measure, SwitchingATermOffLeavesTheOthersDrawsAlone) {
+  const auto tubes = thick_tube();
+  const Camera camera = camera_above(2);
+  const Sensor all{.sigma = 0.001, .dropout = 0.3, .trueness = 0.0005};
+  Sensor no_dropout = all;
+  no_dropout.dropout = 0;
+  Sensor no_noise = all;
+  no_noise.sigma = 0;
+  const Scan with_all = scan(tubes, wide_bin(), camera, all, seed);
+  const Scan without_dropout = scan(tubes, wide_bin(), camera, no_dropout, seed);
+  const Scan without_noise = scan(tubes, wide_bin(), camera, no_noise, seed);
+  for (std::size_t i = 0; i < with_all.pixels.size(); ++i) {
+    EXPECT_EQ(with_all.pixels[i].label, without_noise.pixels[i].label);
+    if (with_all.pixels[i].label == null_label) continue;
+    EXPECT_EQ(with_all.pixels[i].point, without_dropout.pixels[i].point);
+  }
+  EXPECT_GT(measured_pixels(without_dropout), measured_pixels(with_all));
+}
+
+TEST(Measure, TheSameSeedGivesTheSameBytesAndAnotherOneOthers) {
+  const auto tubes = thick_tube();
+  const Camera camera = camera_above(2);
+  const Sensor sensor = sensor_preset("zivid-one-plus-l");
+  const Scan first = scan(tubes, wide_bin(), camera, sensor, seed);
+  const Scan second = scan(tubes, wide_bin(), camera, sensor, seed);
+  const Scan other = scan(tubes, wide_bin(), camera, sensor, seed + 1);
+  const auto bytes = first.pixels.size() * sizeof(Pixel);
+  EXPECT_EQ(std::memcmp(first.pixels.data(), second.pixels.data(), bytes), 0);
+  EXPECT_EQ(first.snr, second.snr);
+  EXPECT_NE(std::memcmp(first.pixels.data(), other.pixels.data(), bytes), 0);
+}
+
+TEST(Measure, TheCalibrationsErrorIsSmoothAndAsLargeAsConfigured) {
+  const Camera camera = camera_above(2);
+  const Scan ideal = scan({}, wide_bin(), camera);
+  const Sensor sensor{.trueness = 0.001, .trueness_length = 100};
+  std::vector<double> at_a_pixel;
+  const PixelWindow one_pixel{.left = 200, .top = 150, .width = 1, .height = 1};
+  for (std::uint64_t scanner = 0; scanner < 20'000; ++scanner) {
+    at_a_pixel.push_back(trueness_errors(sensor, one_pixel, scanner)[0]);
+  }
+  EXPECT_NEAR(statistics(at_a_pixel).mean, 0, 4 * 0.001 / std::sqrt(20'000.0));
+  EXPECT_NEAR(statistics(at_a_pixel).deviation, 0.001, 0.02 * 0.001);
+
+  const Scan measured = scan({}, wide_bin(), camera, sensor, seed);
+  const auto error = [&](int u, int v) { return range_error(measured.at(u, v), ideal.at(u, v)); };
+  EXPECT_NEAR(error(200, 150), trueness_errors(sensor, one_pixel, seed)[0], 1e-6);
+  for (int u = 1; u < camera.width; ++u) EXPECT_LT(std::abs(error(u, 150) - error(u - 1, 150)), 0.0001);
+}
+
+}  // namespace
+}  // namespace tanglebin

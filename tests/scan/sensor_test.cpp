@@ -1,0 +1,70 @@
+#include "tanglebin/scan/sensor.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "tanglebin/scan/camera.hpp"
+#include "tests/support/complaint.hpp"
+
+namespace tanglebin {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string complaint(const Sensor& sensor) {
+  return test::complaint([&] { validate(sensor); });
+}
+
+TEST(Sensor, IsIdealUnlessATermIsSwitchedOn) {
+  EXPECT_TRUE(is_ideal({}));
+  EXPECT_TRUE(is_ideal({.baseline = 0.3, .snr = 5, .gloss_max = 2})) << "parameters of terms that are off";
+  EXPECT_FALSE(is_ideal({.sigma = 0.001}));
+  EXPECT_FALSE(is_ideal({.dropout = 0.001}));
+  EXPECT_FALSE(is_ideal({.edges = Edges::mix}));
+  EXPECT_FALSE(is_ideal({.shadows = true}));
+  EXPECT_FALSE(is_ideal({.signal = true}));
+  EXPECT_FALSE(is_ideal({.disparity_sigma = 0.1}));
+  EXPECT_FALSE(is_ideal({.trueness = 0.001}));
+  EXPECT_FALSE(is_ideal({.kinect_noise = true}));
+}
+
+TEST(Sensor, PresetsAreValidAndOnlyThePapersIsIdeal) {
+  for (const char* name : {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1"}) {
+    EXPECT_EQ(complaint(sensor_preset(name)), "none") << name;
+    EXPECT_EQ(is_ideal(sensor_preset(name)), name == std::string("paper")) << name;
+  }
+  EXPECT_EQ(test::complaint([] { sensor_preset("eye"); }), test::complaint([] { camera_preset("eye"); }));
+  EXPECT_THAT(test::complaint([] { sensor_preset("eye"); }), HasSubstr("found \"eye\""));
+}
+
+TEST(Sensor, NamesTheKeyThatMakesNoSenseAndTheRemedy) {
+  EXPECT_THAT(complaint({.sigma = -1}), StartsWith("scanner.sigma: found -1, expected metres of noise"));
+  EXPECT_THAT(complaint({.dropout = 1}), StartsWith("scanner.dropout: found 1, expected a share"));
+  EXPECT_THAT(complaint({.baseline = 0}),
+              StartsWith("scanner.baseline: found 0, expected a positive distance"));
+  EXPECT_THAT(complaint({.baseline = 0}), HasSubstr("shadows = false"));
+  EXPECT_THAT(complaint({.working_distance = 0}), StartsWith("scanner.working_distance: found 0"));
+  EXPECT_THAT(complaint({.snr = -2}), StartsWith("scanner.snr: found -2, expected a positive ratio"));
+  EXPECT_THAT(complaint({.snr_min = 3}),
+              StartsWith("scanner.snr_min: found 3, expected at most snr_max = 2.5: exchange the two"));
+  EXPECT_THAT(complaint({.albedo_min = 0.9}), StartsWith("scanner.albedo_min: found 0.9, expected at most"));
+  EXPECT_THAT(complaint({.albedo_max = 1.5}), StartsWith("scanner.albedo_max: found 1.5"));
+  EXPECT_THAT(complaint({.gloss_min = 2}), StartsWith("scanner.gloss_min: found 2"));
+  EXPECT_THAT(complaint({.shininess = 0}), StartsWith("scanner.shininess: found 0"));
+  EXPECT_THAT(complaint({.bin_albedo = -0.1}), StartsWith("scanner.bin_albedo: found -0.1"));
+  EXPECT_THAT(complaint({.bin_gloss = -0.1}), StartsWith("scanner.bin_gloss: found -0.1"));
+  EXPECT_THAT(complaint({.footprint = 0}), StartsWith("scanner.footprint: found 0"));
+  EXPECT_THAT(complaint({.sub_rays = 1}), StartsWith("scanner.sub_rays: found 1, expected 2 to 16"));
+  EXPECT_THAT(complaint({.edge_jump = 0}), StartsWith("scanner.edge_jump: found 0"));
+  EXPECT_THAT(complaint({.disparity_sigma = -1}), StartsWith("scanner.disparity_sigma: found -1"));
+  EXPECT_THAT(complaint({.trueness = -1}), StartsWith("scanner.trueness: found -1"));
+  EXPECT_THAT(complaint({.trueness_length = 0}), StartsWith("scanner.trueness_length: found 0"));
+  EXPECT_THAT(complaint({.sigma = std::numeric_limits<double>::quiet_NaN()}), HasSubstr("found nan"));
+}
+
+}  // namespace
+}  // namespace tanglebin

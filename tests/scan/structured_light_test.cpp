@@ -1,0 +1,218 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "scene.hpp"
+#include "tanglebin/scan/projector.hpp"
+#include "tanglebin/scan/scanner.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::uint64_t seed = 2022;
+
+Bin wide_bin() {
+  return {.length = 8, .width = 8, .height = 0.01, .wall = 0.02, .friction = 1};
+}
+
+// Where the two tangents from (x, z) to a circle meet the floor: the circle's shadow.
+struct Interval {
+  double left;
+  double right;
+};
+Interval shadow_on_floor(double x, double z, double circle_x, double circle_z, double radius) {
+  const double towards = std::atan2(circle_x - x, z - circle_z);
+  const double half_angle = std::asin(radius / std::hypot(circle_x - x, z - circle_z));
+  return {x + z * std::tan(towards - half_angle), x + z * std::tan(towards + half_angle)};
+}
+
+TEST(StructuredLight, TheProjectorIsBesideTheCameraAndLooksAtTheSamePoint) {
+  const Camera camera = test::camera_at(Vector3d(0.3, -0.5, 1.7), Vector3d(0, 0, 0.1), 640, 480, 0.7);
+  const Camera projector = projector_beside(camera, {.baseline = 0.3, .working_distance = 1.5});
+  const Vector3d target =
+      ray_through(camera, camera.cx, camera.cy).origin + 1.5 * camera.pose.linear().col(2);
+  EXPECT_NO_THROW(validate(projector));
+  EXPECT_NEAR((camera.pose.inverse() * projector.pose.translation() - Vector3d(0.3, 0, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((*project(projector, target) - Eigen::Vector2d(camera.cx, camera.cy)).norm(), 0, 1e-9);
+}
+
+TEST(StructuredLight, ATubesShadowOnTheFloorIsAsWideAsTheTangentsSay) {
+  constexpr double height = 2;
+  const Camera camera = downward_camera(2001, 3, 20'000, Vector3d(0, 0, height));
+  for (const double tube_height : {0.0125, 0.08, 0.15, 0.3}) {
+    for (const double baseline : {0.1, 0.2, 0.4}) {
+      const std::vector<Tube> tubes = {
+          test::chain(1, 0.0125, {Vector3d(0, -1, tube_height), Vector3d(0, 1, tube_height)})};
+      const Scan ideal = scan(tubes, wide_bin(), camera);
+      const Scan measured = scan(tubes, wide_bin(), camera, {.shadows = true, .baseline = baseline}, seed);
+      int lost = 0;
+      for (int u = 0; u < camera.width; ++u) {
+        if (ideal.at(u, 1).label == bin_label && measured.at(u, 1).label == null_label) ++lost;
+      }
+      const Interval dark = shadow_on_floor(baseline, height, 0, tube_height, 0.0125);
+      const Interval hidden = shadow_on_floor(0, height, 0, tube_height, 0.0125);
+      const double width = std::min(dark.right, hidden.left) - dark.left;  // that the tube does not hide
+      EXPECT_NEAR(lost * height / camera.fx, width, 2 * height / camera.fx)
+          << "tube at " << tube_height << ", baseline " << baseline;
+    }
+  }
+}
+
+TEST(StructuredLight, TheSideOfATubeThatIsTurnedFromTheProjectorIsDark) {
+  const std::vector<Tube> tubes = {test::chain(1, 0.2, {Vector3d(0, -1, 0.3), Vector3d(0, 1, 0.3)})};
+  const Camera camera = downward_camera(2001, 101, 2730, Vector3d(0, 0, 2));
+  const Scan ideal = scan(tubes, wide_bin(), camera);
+  const Scan measured = scan(tubes, wide_bin(), camera, {.shadows = true, .baseline = 0.6}, seed);
+  for (int u = 0; u < camera.width; ++u) {
+    const Pixel& pixel = ideal.at(u, 1);
+    if (pixel.label != 1) continue;
+    const double cosine =
+        (Vector3d(0.6, 0, 2) - pixel.point.cast<double>()).normalized().dot(pixel.normal.cast<double>());
+    if (std::abs(cosine) < 1e-3) continue;
+    EXPECT_EQ(measured.at(u, 1).label == 1, cosine > 0) << "column " << u;
+  }
+}
+
+TEST(StructuredLight, TheProjectorLightsOnlyItsOwnImage) {
+  const Camera camera = downward_camera(400, 300, 400, Vector3d(0, 0, 1));
+  const Scan measured = scan({}, wide_bin(), camera, {.shadows = true, .working_distance = 2}, seed);
+  int first = 0;
+  while (measured.at(first, 150).label == null_label) ++first;
+  // The left edge of its image: half its width from its axis, which is tilted by 0.2 m in 2 m.
+  const double edge = 0.2 - std::tan(std::atan(0.5) + std::atan(0.1));
+  EXPECT_NEAR(first, camera.cx + 400 * edge, 1);
+  EXPECT_EQ(measured.at(399, 150).label, bin_label);
+}
+
+// A camera above a wall's inner face, `offset` pixels over the rim: the edge between rim and floor is the
+// column cx − offset.
+Scan scan_of_an_edge(double offset, const Sensor& sensor) {
+  const Bin bin{.length = 1, .width = 4, .height = 0.2, .wall = 0.3, .friction = 1};
+  const double x = 0.5 + offset * 0.8 / 585;
+  return scan({}, bin, downward_camera(61, 9, 585, Vector3d(x, 0, 1)), sensor, seed);
+}
+
+TEST(StructuredLight, TheDroppedBandAtAnEdgeIsAsWideAsTheSubRaysReach) {
+  for (const Sensor& sensor :
+       {Sensor{.edges = Edges::drop}, Sensor{.edges = Edges::drop, .footprint = 3, .sub_rays = 4},
+        Sensor{.edges = Edges::drop, .footprint = 2.5, .sub_rays = 2}}) {
+    const double width = sensor.footprint * (sensor.sub_rays - 1) / sensor.sub_rays;
+    double dropped = 0;
+    constexpr int offsets = 64;
+    for (int i = 0; i < offsets; ++i) {
+      const double edge = 30 - (i + 0.5) / offsets;
+      const Scan measured = scan_of_an_edge(30 - edge, sensor);
+      for (int u = 20; u < 40; ++u) {
+        const bool lost = measured.at(u, 4).label == null_label;
+        EXPECT_EQ(lost, std::abs(u - edge) < width / 2) << "column " << u << ", edge at " << edge;
+        dropped += lost ? 1.0 / offsets : 0;
+      }
+    }
+    EXPECT_NEAR(dropped, width, 1.0 / offsets);
+  }
+}
+
+TEST(StructuredLight, AFlyingPixelHasTheMeanDepthOfItsSubRays) {
+  const Scan measured = scan_of_an_edge(0.1, {.edges = Edges::mix, .footprint = 3, .sub_rays = 6});
+  int mixed = 0;
+  for (int u = 20; u < 40; ++u) {
+    int on_floor = 0;
+    for (int i = 0; i < 6; ++i) on_floor += u + (i + 0.5) * 0.5 - 1.5 < 29.9 ? 1 : 0;
+    const bool straddles = on_floor > 0 && on_floor < 6;
+    EXPECT_NEAR(measured.at(u, 4).depth, 0.8 + 0.2 * on_floor / 6, 1e-6) << "column " << u;
+    EXPECT_EQ(measured.mixed[measured.index(u, 4)], straddles ? 1 : 0) << "column " << u;
+    mixed += straddles ? 1 : 0;
+  }
+  EXPECT_GE(mixed, 2);
+}
+
+TEST(StructuredLight, AFlyingPixelHasTheLabelOfTheNearestSurface) {
+  const std::vector<Tube> tubes = {test::chain(7, 0.0125, {Vector3d(-1, 0, 0.2), Vector3d(1, 0.1, 0.2)})};
+  const Camera camera = downward_camera(320, 240, 2730, Vector3d(0, 0, 2));
+  const Scan measured = scan(tubes, wide_bin(), camera, {.edges = Edges::mix}, seed);
+  int between = 0;
+  for (std::size_t i = 0; i < measured.pixels.size(); ++i) {
+    if (measured.mixed[i] == 0) continue;
+    EXPECT_EQ(measured.pixels[i].label, 7);
+    if (measured.pixels[i].depth > 1.83 && measured.pixels[i].depth < 1.97) ++between;
+  }
+  EXPECT_GT(between, 300) << "points fly between tube and floor";
+}
+
+TEST(StructuredLight, LosesAPixelWhoseSignalIsWeak) {
+  Camera camera = downward_camera(1200, 9, 600, Vector3d(0, 0, 1));
+  camera.pose = Eigen::AngleAxisd(0.6, Vector3d::UnitY()) * camera.pose;
+  const Sensor sensor{.signal = true, .snr_min = 0.2, .snr_max = 100, .bin_albedo = 1, .bin_gloss = 0};
+  const Scan ideal = scan({}, wide_bin(), camera);
+  const Scan measured = scan({}, wide_bin(), camera, sensor, seed);
+  const Vector3d projector = projector_beside(camera, sensor).pose.translation();
+  int lost = 0;
+  for (int u = 0; u < camera.width; ++u) {
+    const Pixel& pixel = ideal.at(u, 4);
+    if (pixel.label != bin_label) continue;
+    const Vector3d way = projector - pixel.point.cast<double>();
+    const double snr =
+        2 * 4 / way.squaredNorm() * (way.z() / way.norm()) * std::cos(static_cast<double>(pixel.incidence));
+    if (std::abs(snr - 0.2) < 1e-4) continue;
+    EXPECT_EQ(measured.at(u, 4).label == bin_label, snr > 0.2) << "column " << u;
+    lost += snr < 0.2 ? 1 : 0;
+  }
+  EXPECT_GT(lost, 50);
+}
+
+TEST(StructuredLight, AHighlightIsLostWhereTheMirrorDirectionMeetsTheCamera) {
+  const Camera camera = downward_camera(801, 801, 2730, Vector3d(0, 0, 2));
+  const Sensor sensor{
+      .signal = true, .snr = 2, .snr_max = 1.5, .shininess = 400, .bin_albedo = 0.25, .bin_gloss = 1};
+  const Scan measured = scan({}, wide_bin(), camera, sensor, seed);
+  const Scan ideal = scan({}, wide_bin(), camera);
+  Vector3d sum = Vector3d::Zero();
+  double lost = 0;
+  for (std::size_t i = 0; i < ideal.pixels.size(); ++i) {
+    if (measured.pixels[i].label != null_label) continue;
+    sum += ideal.pixels[i].point.cast<double>();
+    ++lost;
+  }
+  // Half-way to the projector, as large as 2 (0.25 + cos^400 psi) > 1.5 says, psi being two shifts a height.
+  EXPECT_LT((sum / lost - Vector3d(0.1, 0, 0)).norm(), 0.001);
+  const double psi = std::acos(std::pow(0.5, 1.0 / 400));
+  const double area = std::numbers::pi * std::pow(psi * 2 / 2, 2);
+  EXPECT_NEAR(lost * std::pow(2.0 / 2730, 2) / area, 1, 0.04);
+}
+
+TEST(StructuredLight, EachTubeHasItsOwnAlbedoAndGloss) {
+  std::vector<Tube> tubes;
+  for (int id = 1; id <= 40; ++id) {
+    const double y = 0.03 * (id - 20);
+    tubes.push_back(test::chain(id, 0.0125, {Vector3d(-0.1, y, 0.0125), Vector3d(0.1, y, 0.0125)}));
+  }
+  const Camera camera = downward_camera(200, 1200, 1200, Vector3d(0, 0, 2));
+  const Sensor sensor{.signal = true, .snr_min = 0, .snr_max = 100, .gloss_min = 0, .gloss_max = 0};
+  const Scan measured = scan(tubes, wide_bin(), camera, sensor, seed);
+  std::map<std::int32_t, double> brightest;
+  for (std::size_t i = 0; i < measured.pixels.size(); ++i) {
+    if (measured.pixels[i].label == null_label) continue;
+    double& snr = brightest[measured.pixels[i].label];
+    snr = std::max(snr, static_cast<double>(measured.snr[i]));
+  }
+  double least = 1;
+  double greatest = 0;
+  for (int id = 1; id <= 40; ++id) {
+    const double albedo = brightest.at(id) / 2;
+    EXPECT_LT(albedo, 0.65 * 1.03) << "a little nearer than the working distance";
+    EXPECT_GT(albedo, 0.35 * 0.85) << "seen and lit from the side";
+    least = std::min(least, albedo);
+    greatest = std::max(greatest, albedo);
+  }
+  EXPECT_GT(greatest - least, 0.2);
+}
+
+}  // namespace
+}  // namespace tanglebin
