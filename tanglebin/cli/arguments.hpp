@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tanglebin/dataset/safe_file.hpp"
+#include "tanglebin/dataset/shard.hpp"
 
 namespace tanglebin::cli {
 
@@ -36,12 +37,6 @@ Range parse_range(std::string_view text, const std::string& option);
 
 /// "1f" is 31. Throws InputError naming `option` for anything but a hexadecimal number of at most 64 bits.
 std::uint64_t parse_hexadecimal(std::string_view text, const std::string& option);
-
-/// Part number `index` of `count`, both from 1.
-struct Shard {
-  int index = 1;
-  int count = 1;
-};
 
 /// "0.1,0.3" or "0.1:1.0:0.1" (first:last:step, both ends in it): the double nearest to each decimal number,
 /// ascending. Throws InputError naming `option` for anything else: a ratio that is not in (0, 1] or has more

@@ -9,6 +9,8 @@ namespace tanglebin::cli {
 // One function and one file a command: adds the subcommand with its options, help and callback. A callback
 // throws InputError for bad input; main() turns what it throws into a message and an exit code.
 void add_generate(CLI::App& app);
+void add_merge(CLI::App& app);
+void add_verify(CLI::App& app);
 void add_scan(CLI::App& app);
 void add_preview(CLI::App& app);
 void add_model(CLI::App& app);

@@ -12,7 +12,7 @@
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/many_cases.hpp"
-#include "tanglebin/cli/progress_line.hpp"
+#include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/experiment/run_experiment.hpp"
 #include "tanglebin/experiment/summary.hpp"
 #include "tanglebin/report/write_pictures.hpp"
@@ -29,6 +29,7 @@ struct ExperimentArguments {
   std::string ratios = "0.1:1.0:0.1";
   ManyCases many;
   std::int64_t seed = 0;
+  ProgressStyle progress = ProgressStyle::line;
   bool json = false;
 };
 
@@ -43,13 +44,17 @@ std::vector<Method> methods_of(const ExperimentArguments& arguments) {
 
 void print_json(const ExperimentArguments& arguments, const ExperimentSummary& summary,
                 const std::vector<MeanMicroRecall>& means, double ratio, double seconds) {
-  nlohmann::ordered_json json{{"directory", arguments.out},
-                              {"wanted", summary.wanted},
-                              {"found", summary.found},
-                              {"made", summary.made},
-                              {"complete", summary.complete()},
-                              {"seconds", seconds},
-                              {"ratio", ratio}};
+  const RunProgress& run = summary.progress;
+  nlohmann::ordered_json json;
+  if (arguments.progress == ProgressStyle::json) json["event"] = "end";
+  json["directory"] = arguments.out;
+  json["wanted"] = run.wanted;
+  json["found"] = run.found;
+  json["made"] = run.made;
+  json["failed"] = run.failed;
+  json["complete"] = summary.is_complete();
+  json["seconds"] = seconds;
+  json["ratio"] = ratio;
   json["micro_recall"] = nlohmann::ordered_json::array();
   for (const MeanMicroRecall& mean : means) {
     json["micro_recall"].push_back({{"method", name_of(mean.method)},
@@ -81,11 +86,12 @@ void print_text(const ExperimentArguments& arguments, const ExperimentSummary& s
                 const std::vector<MeanMicroRecall>& means, double ratio, double seconds) {
   if (!means.empty()) fmt::print("mean micro-recall at ratio {}\n", ratio);
   print_means(means);
-  fmt::print("{}: {} cases modelled in {:.1f} s, {} were there{}\n", arguments.out, summary.made, seconds,
-             summary.found,
-             summary.complete()
-                 ? ""
-                 : fmt::format("; stopped, {} to go", summary.wanted - summary.found - summary.made));
+  const RunProgress& run = summary.progress;
+  fmt::print("{}: {} cases modelled in {:.1f} s, {} were there{}\n", arguments.out, run.made, seconds,
+             run.found,
+             summary.was_stopped()
+                 ? fmt::format("; stopped, {} to go", run.wanted - run.found - run.made - run.failed)
+                 : "");
 }
 
 void experiment(const ExperimentArguments& arguments) {
@@ -96,16 +102,20 @@ void experiment(const ExperimentArguments& arguments) {
   const std::vector<CaseId> wanted = chosen(arguments.many, cases(dataset), arguments.dataset);
   const Clock::time_point start = Clock::now();
   const ExperimentSummary summary = [&] {
-    ProgressLine line(wanted.size());
-    return run_experiment(dataset, settings, wanted, arguments.out, arguments.many.jobs,
-                          [&](std::size_t done) { line.show(done); });
+    ProgressReport progress(arguments.progress);
+    return run_experiment(dataset, settings, wanted, arguments.out, arguments.many.jobs, progress.observer());
   }();
-  if (summary.complete()) write_pictures(arguments.out, dataset, settings);
+  if (summary.is_complete()) write_pictures(arguments.out, dataset, settings);
   const double ratio = ratio_to_show(settings.ratios);
-  const auto print = arguments.json ? print_json : print_text;
+  const auto print = arguments.json || arguments.progress == ProgressStyle::json ? print_json : print_text;
   print(arguments, summary, mean_micro_recalls(read_results(arguments.out), ratio), ratio,
         seconds_since(start));
-  if (!summary.complete()) throw CLI::RuntimeError(exit_interrupted);
+  for (const FailedModel& failed : summary.failed) {
+    fmt::print(stderr, "tanglebin: {}/{}: failed: {}\n", folder_name(failed.id.set, failed.id.tubes),
+               failed.id.number, failed.reason);
+  }
+  if (summary.was_stopped()) throw CLI::RuntimeError(exit_interrupted);
+  if (!summary.failed.empty()) throw CLI::RuntimeError(exit_cases_failed);
 }
 
 }  // namespace
@@ -127,6 +137,7 @@ void add_experiment(CLI::App& app) {
   command->add_option("--seed", arguments->seed, "Of the random choices that the methods make")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
+  add_progress_option(*command, arguments->progress);
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin experiment dataset --out results --downsample 0.3 --tubes 10 --cases 1-3\n"

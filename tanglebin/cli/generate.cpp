@@ -1,20 +1,20 @@
-#include <fmt/core.h>
-
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/fill_report.hpp"
 #include "tanglebin/cli/many_cases.hpp"
-#include "tanglebin/cli/progress_line.hpp"
+#include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
 #include "tanglebin/dataset/recipe.hpp"
+#include "tanglebin/dataset/shard.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -27,6 +27,7 @@ struct GenerateArguments {
   ManyCases many;
   std::optional<std::string> shard;
   std::optional<std::int64_t> seed;
+  ProgressStyle progress = ProgressStyle::line;
   bool json = false;
 };
 
@@ -39,46 +40,28 @@ Recipe recipe_of(const GenerateArguments& arguments) {
   return recipe;
 }
 
-// The recipe's cases that --set, --tubes and --cases let through, and of these the shard's.
-std::vector<CaseId> chosen_cases(const GenerateArguments& arguments, const Recipe& recipe) {
-  std::vector<CaseId> all = chosen(arguments.many, cases(recipe), arguments.recipe);
-  if (!arguments.shard) return all;
-  const Shard shard = parse_shard(*arguments.shard, "--shard");
-  std::vector<CaseId> part;
-  for (auto i = static_cast<std::size_t>(shard.index - 1); i < all.size();
-       i += static_cast<std::size_t>(shard.count)) {
-    part.push_back(all[i]);
-  }
-  return part;
+std::optional<std::string> environment_variable(const std::string& name) {
+  const char* value = std::getenv(name.c_str());
+  return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
-void print_summary(const GenerateArguments& arguments, const GenerateSummary& summary, double seconds) {
-  if (arguments.json) {
-    const nlohmann::ordered_json json{
-        {"directory", arguments.out}, {"wanted", summary.wanted},     {"found", summary.found},
-        {"made", summary.made},       {"rejected", summary.rejected}, {"complete", summary.complete()},
-        {"seconds", seconds}};
-    fmt::print("{}\n", json.dump());
-    return;
-  }
-  fmt::print("{}: {} cases made in {:.1f} s ({} attempts rejected), {} were there{}\n", arguments.out,
-             summary.made, seconds, summary.rejected, summary.found,
-             summary.complete()
-                 ? ""
-                 : fmt::format("; stopped, {} to go", summary.wanted - summary.found - summary.made));
+std::optional<Shard> shard_of(const GenerateArguments& arguments) {
+  if (arguments.shard) return parse_shard(*arguments.shard, "--shard");
+  return shard_from(environment_variable);
 }
 
 void generate(const GenerateArguments& arguments) {
   const Recipe recipe = recipe_of(arguments);
-  const std::vector<CaseId> wanted = chosen_cases(arguments, recipe);
+  const std::optional<Shard> shard = shard_of(arguments);
+  std::vector<CaseId> wanted = chosen(arguments.many, cases(recipe), arguments.recipe);
+  if (shard) wanted = cases_of(*shard, wanted);
   const Clock::time_point start = Clock::now();
-  const GenerateSummary summary = [&] {
-    ProgressLine line(wanted.size());
-    return generate_dataset(recipe, wanted, arguments.out, arguments.many.jobs,
-                            [&](std::size_t done) { line.show(done); });
+  const FillSummary summary = [&] {
+    ProgressReport progress(arguments.progress);
+    return generate_dataset(recipe, wanted, arguments.out, arguments.many.jobs, progress.observer(),
+                            shard ? name_of(*shard) : "");
   }();
-  print_summary(arguments, summary, seconds_since(start));
-  if (!summary.complete()) throw CLI::RuntimeError(exit_interrupted);
+  report_fill({arguments.out, "made", arguments.json, arguments.progress}, summary, seconds_since(start));
 }
 
 }  // namespace
@@ -90,14 +73,18 @@ void add_generate(CLI::App& app) {
   command->add_option("--out", arguments->out, "Directory of the dataset; a run that was stopped goes on")
       ->required();
   add_options(*command, arguments->many);
-  command->add_option("--shard", arguments->shard,
-                      "Make the I-th of N parts of the cases (I/N), in a directory of its own");
+  command->add_option(
+      "--shard", arguments->shard,
+      "Make the I-th of N parts of the cases (I/N); where it is not given, a Slurm array's or "
+      "a Kubernetes indexed job's");
   command->add_option("--seed", arguments->seed, "Seed in place of the recipe's")
       ->check(CLI::NonNegativeNumber);
+  add_progress_option(*command, arguments->progress);
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin generate recipes/set-a.toml --out dataset --tubes 10 --cases 1-3\n"
-      "Formats: docs/formats.md. Ctrl-C finishes the cases under way; the same command goes on.");
+      "Formats: docs/formats.md; clusters: docs/cluster.md. Ctrl-C finishes the cases under way; the same\n"
+      "command goes on. Ends with 1 where cases were given up, 130 where it was stopped.");
   command->callback([arguments] { generate(*arguments); });
 }
 

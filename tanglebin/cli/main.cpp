@@ -18,6 +18,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", TANGLEBIN_VERSION);
   app.require_subcommand(1);
   tanglebin::cli::add_generate(app);
+  tanglebin::cli::add_merge(app);
+  tanglebin::cli::add_verify(app);
   tanglebin::cli::add_scan(app);
   tanglebin::cli::add_preview(app);
   tanglebin::cli::add_model(app);

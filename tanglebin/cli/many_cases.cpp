@@ -9,11 +9,15 @@
 
 namespace tanglebin::cli {
 
-void add_options(CLI::App& command, ManyCases& many) {
-  many.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  command.add_option("--jobs", many.jobs, "Processes that work side by side")
+void add_jobs_option(CLI::App& command, int& jobs) {
+  jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  command.add_option("--jobs", jobs, "Processes that work side by side")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));
+}
+
+void add_options(CLI::App& command, ManyCases& many) {
+  add_jobs_option(command, many.jobs);
   command.add_option("--set", many.sets, "Only these sets");
   command.add_option("--tubes", many.tubes, "Only these numbers of tubes");
   command.add_option("--cases", many.cases, "Only this case or range of cases: 3 or 1-20");

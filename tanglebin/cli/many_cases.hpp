@@ -21,6 +21,9 @@ struct ManyCases {
   std::optional<std::string> cases;
 };
 
+/// Adds --jobs, which sets `jobs`; as many as there are processors, where it is not given.
+void add_jobs_option(CLI::App& command, int& jobs);
+
 /// Adds --jobs, --set, --tubes and --cases, which fill `many`; jobs as many as there are processors.
 void add_options(CLI::App& command, ManyCases& many);
 
@@ -30,5 +33,8 @@ std::vector<CaseId> chosen(const ManyCases& many, std::vector<CaseId> cases, con
 
 /// Exit status of a command that SIGINT or SIGTERM stopped, as a shell reports SIGINT.
 inline constexpr int exit_interrupted = 130;
+
+/// Exit status of a command that gave cases up.
+inline constexpr int exit_cases_failed = 1;
 
 }  // namespace tanglebin::cli

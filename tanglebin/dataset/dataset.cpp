@@ -40,11 +40,7 @@ CheckedFile open_checked(const Dataset& dataset, const CaseId& id, std::string_v
   const auto record = std::ranges::find(files, path, &FileRecord::path);
   const fs::path file = dataset.directory / path;
   if (record == files.end()) throw InputError({file.string(), 0, ""}, "not in the manifest");
-  const std::string bytes = bytes_of(file);
-  if (const std::string found = sha256(bytes); found != record->sha256) {
-    throw InputError({file.string(), 0, "sha256"}, found, record->sha256 + ", as the manifest says");
-  }
-  return {file.string(), std::istringstream(bytes)};
+  return {file.string(), std::istringstream(checked_bytes(dataset.directory, *record))};
 }
 
 }  // namespace
@@ -54,6 +50,19 @@ Dataset read_dataset(const fs::path& directory) {
   const std::string text = bytes_of(file);
   std::istringstream in(text);
   return {directory, read_recipe(in, file.string()), sha256(text), finished_cases(directory)};
+}
+
+std::string checked_bytes(const fs::path& directory, const FileRecord& file) {
+  const fs::path path = directory / file.path;
+  std::string bytes = bytes_of(path);
+  if (const std::string found = sha256(bytes); found != file.sha256) {
+    throw InputError({path.string(), 0, "sha256"}, found, file.sha256 + ", as the manifest says");
+  }
+  if (bytes.size() != file.bytes) {
+    throw InputError({path.string(), 0, "bytes"}, fmt::format("{}", bytes.size()),
+                     fmt::format("{}, as the manifest says", file.bytes));
+  }
+  return bytes;
 }
 
 std::vector<CaseId> cases(const Dataset& dataset) {

@@ -26,6 +26,10 @@ Dataset read_dataset(const std::filesystem::path& directory);
 /// The cases that are there, in the recipe's order.
 std::vector<CaseId> cases(const Dataset& dataset);
 
+/// The bytes of a dataset's file. Throws InputError naming the file where it is missing or not the one that
+/// the manifest has the size and the checksum of.
+std::string checked_bytes(const std::filesystem::path& directory, const FileRecord& file);
+
 /// The recipe of a case that is there: the dataset's, with the numbers that were drawn for the case as the
 /// manifest has them.
 Recipe recipe_of(const Dataset& dataset, const CaseId& id);

@@ -1,33 +1,21 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <functional>
+#include <string>
 #include <vector>
 
-#include "tanglebin/dataset/case_id.hpp"
-#include "tanglebin/dataset/recipe.hpp"
+#include "tanglebin/dataset/fill_dataset.hpp"
 
 namespace tanglebin {
 
-/// What a run of generate_dataset() came to.
-struct GenerateSummary {
-  std::size_t wanted = 0;    ///< cases asked for
-  std::size_t found = 0;     ///< of these, already there
-  std::size_t made = 0;      ///< of these, made now
-  std::size_t rejected = 0;  ///< attempts that gave no valid scene, over the cases made now
-  bool complete() const { return found + made == wanted; }
-};
+/// Makes the wanted cases in `directory` (fill_dataset.hpp), in `jobs` processes, by simulation. The bytes of
+/// recipe, manifest and case files depend on recipe and wanted cases alone. A case without a valid scene is a
+/// failed one. `name` is that of the shard, where several runs make parts of the dataset at the same time.
+FillSummary generate_dataset(const Recipe& recipe, const std::vector<CaseId>& wanted,
+                             const std::filesystem::path& directory, int jobs,
+                             const RunObserver& observer = {}, const std::string& name = {});
 
-/// Makes the wanted cases in `directory`, in `jobs` processes, and with them recipe.toml, manifest.jsonl and
-/// times.jsonl (docs/formats.md). Cases that are there already stay as they are, so a run that was stopped
-/// goes on where it was: finished cases are in a journal, and their files are whole. The bytes of recipe,
-/// manifest and case files depend on recipe and wanted cases alone. Returns early, with what is done, on
-/// SIGINT and SIGTERM. `progress` is told how many of the cases are done. Throws InputError where `directory`
-/// belongs to another recipe or to a run that is under way, where a file cannot be written, and where a case
-/// has no valid scene.
-GenerateSummary generate_dataset(const Recipe& recipe, const std::vector<CaseId>& wanted,
-                                 const std::filesystem::path& directory, int jobs,
-                                 const std::function<void(std::size_t done)>& progress);
+/// The same for any request, whose made_with is this program's.
+FillSummary generate_cases(FillRequest request, const RunObserver& observer);
 
 }  // namespace tanglebin

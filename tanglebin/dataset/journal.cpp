@@ -1,49 +1,96 @@
 #include "tanglebin/dataset/journal.hpp"
 
-#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/safe_file.hpp"
 
 namespace tanglebin {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Journal {
-public:
-  /// Opens it for this process and those that it forks.
-  explicit Journal(const fs::path& file)
-      : file_(file), descriptor_(open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
-    if (descriptor_ < 0) throw InputError({file_.string(), 0, ""}, std::strerror(errno));
-  }
-  ~Journal() { close(descriptor_); }
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
+constexpr std::string_view extension = ".jsonl";
 
-  /// On the disk when it returns. Lines of several processes do not mix.
-  void append(const std::string& text) const {
-    const std::string line = text + '\n';
-    const ssize_t written = write(descriptor_, line.data(), line.size());
-    if (written < 0) throw InputError({file_.string(), 0, ""}, std::strerror(errno));
-    if (static_cast<std::size_t>(written) < line.size())
-      throw InputError({file_.string(), 0, ""}, std::strerror(ENOSPC));
-    if (fdatasync(descriptor_) != 0) throw InputError({file_.string(), 0, ""}, std::strerror(errno));
-  }
+std::string stem_of(const std::string& name) {
+  return name.empty() ? "journal" : "journal-" + name;
+}
 
-private:
-  fs::path file_;
-  int descriptor_;
-};
+fs::path staging_of(const fs::path& journal) {
+  return journal.parent_path() / ("." + journal.stem().string() + ".unfinished");
+}
+
+FileLock take_lock(const fs::path& file) {
+  // Long enough for the workers of a run that was killed to be gone.
+  constexpr std::chrono::seconds patience{3};
+  if (std::optional<FileLock> lock = FileLock::take(file, patience)) return std::move(*lock);
+  throw InputError({file.parent_path().string(), 0, ""}, "another run is writing here");
+}
 
 }  // namespace
 
-fs::path journal_of(const fs::path& directory) {
-  return directory / "journal.jsonl";
+Journal::Journal(const fs::path& directory, const std::string& name)
+    : file_(directory / (stem_of(name) + std::string(extension))),
+      staging_(staging_of(file_)),
+      lock_(take_lock(file_)) {
+  fs::remove_all(staging_);
+  make_directories(staging_);
+}
+
+Journal::Journal(fs::path file, fs::path staging, FileLock lock)
+    : file_(std::move(file)), staging_(std::move(staging)), lock_(std::move(lock)) {}
+
+Journal::~Journal() {
+  if (lock_.descriptor() < 0) return;
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
+  struct stat status {};
+  if (fstat(lock_.descriptor(), &status) == 0 && status.st_size == 0) fs::remove(file_, ignored);
+}
+
+void Journal::append(const std::vector<std::string>& lines) const {
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  const auto fail = [&](int reason) { throw InputError({file_.string(), 0, ""}, std::strerror(reason)); };
+  const ssize_t written = write(lock_.descriptor(), text.data(), text.size());
+  if (written < 0) fail(errno);
+  if (static_cast<std::size_t>(written) < text.size()) fail(ENOSPC);
+  if (fdatasync(lock_.descriptor()) != 0) fail(errno);
+}
+
+void Journal::clear() const {
+  if (ftruncate(lock_.descriptor(), 0) != 0) throw InputError({file_.string(), 0, ""}, std::strerror(errno));
+}
+
+std::vector<fs::path> journals_in(const fs::path& directory) {
+  std::vector<fs::path> journals;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("journal") && name.ends_with(extension)) journals.push_back(entry.path());
+  }
+  std::ranges::sort(journals);
+  return journals;
+}
+
+std::vector<Journal> abandoned_journals(const fs::path& directory) {
+  std::vector<Journal> abandoned;
+  for (const fs::path& file : journals_in(directory)) {
+    if (std::optional<FileLock> lock = FileLock::take(file, std::chrono::milliseconds(0))) {
+      abandoned.push_back(Journal(file, staging_of(file), std::move(*lock)));
+    }
+  }
+  return abandoned;
 }
 
 void for_each_whole_line(const fs::path& file,
@@ -51,19 +98,6 @@ void for_each_whole_line(const fs::path& file,
   std::ifstream in(file, std::ios::binary);
   std::string line;
   for (std::size_t number = 1; std::getline(in, line) && !in.eof(); ++number) take(line, number);
-}
-
-void run_with_journal(const fs::path& directory, int jobs, std::size_t count, const JournaledTask& task,
-                      const Progress& progress, const std::function<void()>& finish) {
-  try {
-    const Journal journal(journal_of(directory));
-    run_in_workers(
-        jobs, count, [&](std::size_t number) { journal.append(task(number)); }, progress);
-  } catch (...) {
-    finish();
-    throw;
-  }
-  finish();
 }
 
 }  // namespace tanglebin

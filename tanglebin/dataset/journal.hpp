@@ -3,29 +3,57 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
-#include <string_view>
+#include <vector>
 
-#include "tanglebin/dataset/workers.hpp"
+#include "tanglebin/dataset/file_lock.hpp"
 
 namespace tanglebin {
 
-/// The journal of a directory: a line for each task that is done and not yet in the directory's other files.
-/// A run that is cut off leaves it behind; the next one reads it.
-std::filesystem::path journal_of(const std::filesystem::path& directory);
+/// The journal of a run in a directory: a line for each task that is done and not yet in the directory's
+/// other files. A run that is cut off leaves it behind; the next one reads it. A run keeps its journal
+/// locked, so that there is one run of a name in a directory at a time; those of different names may be there
+/// side by side. A journal has a directory beside it for files that are not finished.
+class Journal {
+public:
+  /// Opens the journal `directory`/journal.jsonl, or journal-NAME.jsonl where there is a name ("2-of-8"), for
+  /// this process and those that it forks, with the lines that an earlier run left. Throws InputError where
+  /// another run has it, for longer than this one waits.
+  explicit Journal(const std::filesystem::path& directory, const std::string& name = {});
+
+  /// Removes the directory for unfinished files, and the journal where it is empty.
+  ~Journal();
+  Journal(Journal&&) = default;
+  Journal& operator=(Journal&&) = delete;
+
+  /// A directory on the same disk for files that are not finished; empty at first.
+  const std::filesystem::path& staging() const { return staging_; }
+
+  /// On the disk when it returns. Throws InputError where that fails ("No space left on device", …).
+  void append(const std::vector<std::string>& lines) const;
+
+  /// Empties the journal: what its lines say stands elsewhere, on the disk.
+  void clear() const;
+
+private:
+  friend std::vector<Journal> abandoned_journals(const std::filesystem::path& directory);
+  Journal(std::filesystem::path file, std::filesystem::path staging, FileLock lock);
+
+  std::filesystem::path file_;
+  std::filesystem::path staging_;
+  FileLock lock_;
+};
+
+/// The directory's journals, whoever has them.
+std::vector<std::filesystem::path> journals_in(const std::filesystem::path& directory);
+
+/// Those of runs that were cut off.
+std::vector<Journal> abandoned_journals(const std::filesystem::path& directory);
 
 /// Calls `take` with every line of the file that has its end, and the line's number: a last line that was cut
 /// off is passed over. A file that is not there has no lines.
 void for_each_whole_line(const std::filesystem::path& file,
                          const std::function<void(const std::string&, std::size_t)>& take);
-
-/// A task whose result is a line for the journal.
-using JournaledTask = std::function<std::string(std::size_t task)>;
-
-/// run_in_workers(), in which a task is done when its line is in the directory's journal and on the disk.
-/// Whatever ends the run, `finish` is called at its end, to move the journal's lines to where they belong.
-void run_with_journal(const std::filesystem::path& directory, int jobs, std::size_t count,
-                      const JournaledTask& task, const Progress& progress,
-                      const std::function<void()>& finish);
 
 }  // namespace tanglebin

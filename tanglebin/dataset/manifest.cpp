@@ -1,8 +1,6 @@
 #include "tanglebin/dataset/manifest.hpp"
 
-#include <fmt/core.h>
-
-#include <charconv>
+#include <algorithm>
 #include <string>
 
 #include "tanglebin/dataset/json_line.hpp"
@@ -10,20 +8,19 @@
 namespace tanglebin {
 namespace {
 
-// Hexadecimal text, since many readers of JSON take a number for a double, which cannot hold all of a seed.
-std::string seed_text(std::uint64_t seed) {
-  return fmt::format("{:016x}", seed);
-}
-
-std::uint64_t seed_from(const Json& json) {
-  const auto text = json.get<std::string>();
-  std::uint64_t seed = 0;
-  constexpr int hexadecimal = 16;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed, hexadecimal);
-  if (error != std::errc{} || end != text.data() + text.size()) {
-    throw Json::other_error::create(501, "seed is not a hexadecimal number", nullptr);
+// A manifest from elsewhere must not make a program read or write outside of the dataset's directory.
+std::string path_from(const Json& json) {
+  auto text = json.get<std::string>();
+  const std::filesystem::path path(text);
+  const auto is_control = [](unsigned char character) { return character < 0x20 || character == 0x7f; };
+  const bool is_below = path.is_relative() && path.has_filename() &&
+                        text == path.lexically_normal().string() && *path.begin() != ".." &&
+                        *path.begin() != ".";
+  if (!is_below || std::ranges::any_of(text, is_control)) {
+    throw Json::other_error::create(501, "path is not below the dataset's directory: " + json.dump(),
+                                    nullptr);
   }
-  return seed;
+  return text;
 }
 
 }  // namespace
@@ -67,7 +64,7 @@ CaseRecord case_record(const std::string& json, const std::string& file, std::si
                       seed_from(value.at("seed")),
                       value.at("simulated").get<double>(),
                       value.at("largest_overlap").get<double>(),
-                      value.at("points").get<std::size_t>(),
+                      integer_from<std::size_t>(value.at("points")),
                       {},
                       {}};
     for (const Json& rejection : value.at("rejected")) {
@@ -75,12 +72,12 @@ CaseRecord case_record(const std::string& json, const std::string& file, std::si
                                    rejection.at("fault").get<std::string>()});
     }
     for (const Json& entry : value.at("files")) {
-      record.files.push_back({entry.at("path").get<std::string>(), entry.at("bytes").get<std::size_t>(),
+      record.files.push_back({path_from(entry.at("path")), integer_from<std::size_t>(entry.at("bytes")),
                               entry.at("sha256").get<std::string>()});
     }
     for (const Json& scanner : value.value("scanners", Json::array())) {
       record.scanners.push_back(
-          {scanner.at("name").get<std::string>(), scanner.at("points").get<std::size_t>()});
+          {scanner.at("name").get<std::string>(), integer_from<std::size_t>(scanner.at("points"))});
     }
     const Json drawn = value.value("drawn", Json::object());
     for (const auto& [path, number] : drawn.items()) {

@@ -7,9 +7,11 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "tanglebin/base/error.hpp"
 
@@ -74,23 +76,7 @@ public:
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  std::error_code fill(std::string_view bytes) {
-    Descriptor file(create());
-    if (!file.is_open()) return last_error();
-    exists_ = true;
-    if (const std::error_code error = file.write_all(bytes)) return error;
-    if (const std::error_code error = file.sync()) return error;
-    return file.close();
-  }
-
-  std::error_code rename_to(const fs::path& target) {
-    if (::rename(path_.c_str(), target.c_str()) != 0) return last_error();
-    exists_ = false;
-    return {};
-  }
-
-private:
-  int create() {
+  std::error_code create() {
     static std::atomic<unsigned> counter{0};
     int descriptor = -1;
     do {
@@ -98,11 +84,26 @@ private:
       path_ = directory_ / fmt::format(".tanglebin-{}-{}.tmp", ::getpid(), counter++);
       descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor < 0 && errno == EEXIST);  // left by a process that was killed, or another machine's
-    return descriptor;
+    if (descriptor < 0) return last_error();
+    exists_ = true;
+    file_ = std::make_unique<Descriptor>(descriptor);
+    return {};
   }
 
+  std::error_code append(std::string_view bytes) const { return file_->write_all(bytes); }
+
+  std::error_code rename_to(const fs::path& target) {
+    if (const std::error_code error = file_->sync()) return error;
+    if (const std::error_code error = file_->close()) return error;
+    if (::rename(path_.c_str(), target.c_str()) != 0) return last_error();
+    exists_ = false;
+    return {};
+  }
+
+private:
   fs::path directory_;
   fs::path path_;
+  std::unique_ptr<Descriptor> file_;
   bool exists_ = false;
 };
 
@@ -120,10 +121,25 @@ std::error_code write_into(const fs::path& device, std::string_view bytes) {
   return file.close();
 }
 
+fs::path directory_of(const fs::path& file) {
+  const fs::path directory = file.parent_path();
+  return directory.empty() ? fs::path(".") : directory;
+}
+
+std::error_code sync_names_in(const fs::path& directory) {
+  Descriptor opened(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!opened.is_open()) return last_error();
+  const std::error_code error = opened.sync();
+  // Some file systems have no such thing, or need none.
+  return error == std::errc::invalid_argument ? std::error_code{} : error;
+}
+
 std::error_code write_beside_and_rename(const fs::path& target, std::string_view bytes) {
-  TemporaryFile temporary(target.parent_path());
-  if (const std::error_code error = temporary.fill(bytes)) return error;
-  return temporary.rename_to(target);
+  TemporaryFile temporary(directory_of(target));
+  if (const std::error_code error = temporary.create()) return error;
+  if (const std::error_code error = temporary.append(bytes)) return error;
+  if (const std::error_code error = temporary.rename_to(target)) return error;
+  return sync_names_in(directory_of(target));
 }
 
 std::error_code write_whole(const fs::path& file, std::string_view bytes) {
@@ -155,13 +171,57 @@ void write_file(const std::filesystem::path& file, std::string_view bytes) {
 
 void make_directories(const std::filesystem::path& directory) {
   std::error_code error;
+  if (fs::is_directory(directory, error)) return;
+  // Those above one that is there already are on the disk.
+  std::vector<fs::path> changed{directory_of(directory)};
+  while (fs::status(changed.back(), error).type() == fs::file_type::not_found) {
+    changed.push_back(directory_of(changed.back()));
+  }
   fs::create_directories(directory, error);
-  if (!error) return;
+  if (!error) {
+    for (const fs::path& parent : changed) sync_directory(parent);
+    return;
+  }
   const fs::path blocked = obstacle(directory);
   if (!blocked.empty()) {
     throw InputError({.file = blocked.string(), .line = 0, .field = {}}, "a file", "a directory");
   }
   fail(directory, "cannot make the directory", error);
+}
+
+void sync_directory(const std::filesystem::path& directory) {
+  if (const std::error_code error = sync_names_in(directory)) fail(directory, "cannot write", error);
+}
+
+struct StagedFile::Implementation {
+  fs::path file;
+  TemporaryFile temporary;
+
+  void expect(const std::error_code& error) const {
+    if (error) fail(file, "cannot write", error);
+  }
+};
+
+StagedFile::StagedFile(std::filesystem::path file, const std::filesystem::path& staging)
+    : implementation_(new Implementation{.file = std::move(file), .temporary = TemporaryFile(staging)}) {
+  implementation_->expect(implementation_->temporary.create());
+}
+
+StagedFile::~StagedFile() = default;
+
+void StagedFile::append(std::string_view bytes) {
+  implementation_->expect(implementation_->temporary.append(bytes));
+}
+
+void StagedFile::commit() {
+  implementation_->expect(implementation_->temporary.rename_to(implementation_->file));
+}
+
+void write_staged(const std::filesystem::path& file, std::string_view bytes,
+                  const std::filesystem::path& staging) {
+  StagedFile staged(file, staging);
+  staged.append(bytes);
+  staged.commit();
 }
 
 }  // namespace tanglebin

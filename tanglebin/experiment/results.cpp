@@ -160,7 +160,7 @@ FinishedRuns finished_runs(const fs::path& directory) {
   };
   read(results_of(directory), add_result);
   read(times_of(directory), add_times);
-  read(journal_of(directory), add_journal_line);
+  for (const fs::path& journal : journals_in(directory)) read(journal, add_journal_line);
   return finished;
 }
 
@@ -200,7 +200,6 @@ void write_results(const fs::path& directory, const Dataset& dataset, const Expe
   write_file(results_of(directory), results);
   write_file(experiment_of(directory),
              experiment_text(experiment_json(dataset, settings), static_cast<std::size_t>(count)));
-  fs::remove(journal_of(directory));
 }
 
 std::vector<RunResult> read_results(const fs::path& directory) {

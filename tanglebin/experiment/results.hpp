@@ -43,7 +43,7 @@ void claim(const std::filesystem::path& directory, const Dataset& dataset,
            const ExperimentSettings& settings);
 
 /// Writes experiment.json, results.jsonl, times.jsonl and generation.jsonl, runs in order of method, case and
-/// ratio, and removes the journal.
+/// ratio.
 void write_results(const std::filesystem::path& directory, const Dataset& dataset,
                    const ExperimentSettings& settings, const FinishedRuns& finished);
 

@@ -1,12 +1,11 @@
 #include "tanglebin/experiment/run_experiment.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <string>
 
-#include "tanglebin/dataset/directory_lock.hpp"
 #include "tanglebin/dataset/journal.hpp"
 #include "tanglebin/dataset/safe_file.hpp"
+#include "tanglebin/dataset/workers.hpp"
 #include "tanglebin/experiment/results.hpp"
 
 namespace tanglebin {
@@ -35,30 +34,48 @@ std::string run_case(const Dataset& dataset, const ExperimentSettings& settings,
 
 ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSettings& settings,
                                  const std::vector<CaseId>& wanted, const std::filesystem::path& directory,
-                                 int jobs, const Progress& progress) {
+                                 int jobs, const RunObserver& observer) {
   make_directories(directory);
-  const DirectoryLock lock(directory);
+  const Journal journal(directory);
   claim(directory, dataset, settings);
+  const auto fold_journal = [&](const FinishedRuns& finished) {
+    write_results(directory, dataset, settings, finished);
+    journal.clear();
+  };
   const FinishedRuns before = finished_runs(directory);
-  write_results(directory, dataset, settings,
-                before);  // also clears away a journal whose last line is cut off
+  fold_journal(before);
   std::vector<CaseId> missing;
   for (const CaseId& id : wanted) {
     if (!before.has(id, settings)) missing.push_back(id);
   }
-  ExperimentSummary summary{.wanted = wanted.size(), .found = wanted.size() - missing.size(), .made = 0};
+  ExperimentSummary summary;
+  summary.progress.wanted = wanted.size();
+  summary.progress.found = wanted.size() - missing.size();
 
-  const auto finish = [&] {
-    const FinishedRuns after = finished_runs(directory);
-    const auto made =
-        std::ranges::count_if(missing, [&](const CaseId& id) { return after.has(id, settings); });
-    summary.made = static_cast<std::size_t>(made);
-    write_results(directory, dataset, settings, after);
+  const auto record = [&](const std::vector<TaskResult>& results) {
+    std::vector<std::string> lines;
+    lines.reserve(results.size());
+    for (const TaskResult& result : results) lines.push_back(result.text);
+    journal.append(lines);
+    for (const TaskResult& result : results) {
+      ++summary.progress.made;
+      observer.ended({missing[result.task], result.seconds, 0, {}}, summary.progress);
+    }
   };
-  run_with_journal(
-      directory, jobs, missing.size(),
-      [&](std::size_t task) { return run_case(dataset, settings, missing[task]); },
-      [&](std::size_t done) { progress(summary.found + done); }, finish);
+  const auto give_up = [&](const TaskFailure& failure) {
+    ++summary.progress.failed;
+    summary.failed.push_back({missing[failure.task], failure.reason});
+    observer.ended({missing[failure.task], 0, 0, failure.reason}, summary.progress);
+  };
+  try {
+    run_in_workers(jobs, missing.size(),
+                   [&](std::size_t task) { return run_case(dataset, settings, missing[task]); },
+                   {.done = record, .failed = give_up, .tick = [&] { observer.progress(summary.progress); }});
+  } catch (...) {
+    fold_journal(finished_runs(directory));
+    throw;
+  }
+  fold_journal(finished_runs(directory));
   return summary;
 }
 

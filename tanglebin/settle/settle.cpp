@@ -101,6 +101,18 @@ Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSetti
   return {std::move(heap), world.time(), overlap, std::move(fault)};
 }
 
+std::string fault_of_heap(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings) {
+  constexpr double swing = 4;
+  SettleSettings lenient = settings;
+  lenient.proof_motion *= swing;
+  World world(tubes, bin, lenient, 0);
+  std::string fault = prove_rest(world, lenient.iterations_max, bin, lenient);
+  if (fault.empty() && !are_inside_the_bin(world.centres_of_mass(), bin)) {
+    fault = "a centre of mass is outside the bin";
+  }
+  return fault;
+}
+
 void validate(const SettleSettings& settings) {
   const auto require = [](bool good, const char* field, double found, const char* expected) {
     if (good) return;

@@ -49,6 +49,12 @@ struct Settled {
 Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings,
                std::uint64_t seed);
 
+/// Lays tubes, whose masses are known, where they are and without speed into the bin, and says by what they
+/// are no valid heap; empty where they are one: settle()'s test of rest, but for a node that may move four
+/// times proof_motion. A heap that settle() lets pass may still swing by proof_motion about where it came to
+/// rest, and begins this time at an end of its swing; one that topples moves ten times as far.
+std::string fault_of_heap(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings);
+
 /// Throws InputError naming the field under `settle` that is out of range.
 void validate(const SettleSettings& settings);
 

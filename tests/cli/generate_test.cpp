@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <string>
 
 #include "../support/program.hpp"
@@ -13,6 +16,7 @@ namespace {
 using test::bytes_of;
 using test::files_below;
 using test::run_program;
+using test::run_shell;
 using test::TemporaryDirectory;
 using test::write_bytes;
 using testing::HasSubstr;
@@ -62,7 +66,7 @@ TEST_F(Generate, MakesTheRecipesCasesAndSaysSo) {
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("dataset: 9 cases made in "));
   EXPECT_EQ(result.err, "");  // no progress where standard error is no terminal
-  EXPECT_EQ(files_below(out()).size(), 9 * 3 + 3U);
+  EXPECT_EQ(files_below(out()).size(), 9 * 3 + 4U);
 }
 
 TEST_F(Generate, MakesOnlyTheCasesAskedForAndGoesOnLater) {
@@ -101,6 +105,94 @@ TEST_F(Generate, OneJobOrTwoGiveTheSameBytes) {
   one.erase("times.jsonl");
   two.erase("times.jsonl");
   EXPECT_EQ(one, two);
+}
+
+TEST_F(Generate, PrintsTheDigestThatTheDatasetHas) {
+  const auto text = run_program(command());
+  const auto json = nlohmann::json::parse(run_program(command("--json")).out);
+  const std::string digest = json["dataset"]["digest"];
+  EXPECT_THAT(text.out, HasSubstr("dataset: complete, 9 cases, digest " + digest + "\n"));
+  EXPECT_EQ(nlohmann::json::parse(bytes_of(directory_ / "dataset/dataset.json"))["digest"], digest);
+  const auto part = run_program(command("--cases 1", "part"));
+  EXPECT_THAT(part.out, HasSubstr("part: 3 of the recipe's 9 cases, digest "));
+}
+
+TEST_F(Generate, AnyShardsInOneDirectoryAreTheRunInOnePiece) {
+  run_program(command("", "whole"));
+  for (const std::string shard : {"3/3", "1/3", "2/3"}) run_program(command("--shard " + shard, "shared"));
+  auto whole = files_below(out("whole"));
+  auto shared = files_below(out("shared"));
+  whole.erase("times.jsonl");
+  shared.erase("times.jsonl");
+  EXPECT_EQ(shared, whole);
+}
+
+TEST_F(Generate, TakesTheShardFromTheQueuesEnvironmentUnlessItIsGiven) {
+  const auto made = [&](const std::string& environment, const std::string& options, const std::string& name) {
+    const auto result =
+        run_shell(environment + " " + TANGLEBIN_PROGRAM + " " + command("--json " + options, name));
+    EXPECT_EQ(result.status, 0) << result.err;
+    return nlohmann::json::parse(result.out)["made"].get<int>();
+  };
+  const std::string slurm = "SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_COUNT=4 SLURM_ARRAY_TASK_MIN=1";
+  EXPECT_EQ(made(slurm, "", "slurm"), 2);
+  EXPECT_EQ(made("JOB_COMPLETION_INDEX=0 JOB_COMPLETIONS=4", "", "kubernetes"), 3);
+  EXPECT_EQ(made(slurm, "--shard 1/1", "all"), 9);
+  const auto wrong = run_shell("JOB_COMPLETION_INDEX=0 " + std::string(TANGLEBIN_PROGRAM) + " " + command());
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("JOB_COMPLETIONS: not set"));
+}
+
+TEST_F(Generate, TellsAProgramOfEachEventInALineOfJson) {
+  const auto result = run_program(command("--progress json"));
+  EXPECT_EQ(result.err, "");
+  std::istringstream lines(result.out);
+  std::map<std::string, int> events;
+  nlohmann::json last;
+  std::set<std::string> made;
+  for (std::string line; std::getline(lines, line);) {
+    last = nlohmann::json::parse(line);
+    ++events[last["event"]];
+    if (last["event"] == "progress") {
+      for (const char* key : {"wanted", "found", "made", "failed", "rejected", "rate", "remaining_seconds"}) {
+        EXPECT_TRUE(last.contains(key)) << key;
+      }
+    }
+    if (last["event"] == "case") {
+      made.insert(last["set"].get<std::string>() + last["tubes"].dump() + "/" + last["case"].dump());
+      EXPECT_TRUE(last["seconds"].is_number());
+      EXPECT_TRUE(last["rejected"].is_number());
+    }
+  }
+  EXPECT_EQ(events["case"], 9);
+  EXPECT_EQ(made.size(), 9U);
+  EXPECT_GE(events["progress"], 1);
+  EXPECT_EQ(last["event"], "end");
+  EXPECT_EQ(last["made"], 9);
+  EXPECT_EQ(last["dataset"]["cases"], 9);
+}
+
+TEST_F(Generate, CasesWithoutAValidSceneAreToldOfAndTheOthersMade) {
+  // In a second of simulated time one tube comes to rest, twelve do not.
+  write_bytes(recipe_,
+              "seed = 3\nattempts = 1\n[settle]\ntime_limit = 1.0\n[scanner]\nwidth = 48\nheight = 30\n"
+              "[[set]]\nname = 'A'\ntubes = [1, 12]\ncases = 2\n"
+              "[set.tube]\nradius = 0.0125\nmass = 0.5\nlength = 0.5\nbend_max_deg = 30\n");
+  const auto result = run_program(command("--jobs 1 --progress json"));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(
+      result.out,
+      HasSubstr("{\"event\":\"failure\",\"set\":\"A\",\"tubes\":12,\"case\":1,\"reason\":\"no valid "));
+  EXPECT_THAT(
+      result.err,
+      testing::ContainsRegex(
+          "^tanglebin: A12/1: failed: no valid scene of 12 tubes in 1 attempts: .* \\(seed [0-9a-f]+\\)\n"
+          "tanglebin: A12/2: failed: "));
+  EXPECT_EQ(std::ranges::count(bytes_of(directory_ / "dataset/failed.jsonl"), '\n'), 2);
+  const auto hopeless = run_program(command("--tubes 12", "hopeless"));
+  EXPECT_EQ(hopeless.status, 2);
+  EXPECT_THAT(hopeless.err,
+              testing::ContainsRegex("^tanglebin: A12/[12]: no valid scene of 12 tubes in 1 attempts"));
 }
 
 TEST_F(Generate, TheSeedCanBeGivenAndIsInTheResolvedRecipe) {
@@ -147,6 +239,7 @@ TEST_F(Generate, BadInputIsExitStatusTwoAndOneLine) {
 TEST_F(Generate, WrongUsageIsExitStatus64) {
   EXPECT_EQ(run_program("generate").status, 64);
   EXPECT_EQ(run_program(command("--jobs 0")).status, 64);
+  EXPECT_EQ(run_program(command("--progress xml")).status, 64);
   EXPECT_EQ(run_program(command("--no-such-option")).status, 64);
   EXPECT_EQ(run_program("").status, 64);
   EXPECT_EQ(run_program("no-such-command").status, 64);

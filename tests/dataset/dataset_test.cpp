@@ -24,9 +24,7 @@ using testing::HasSubstr;
 /// A dataset of which two cases of six are there.
 class DatasetOnDisk : public testing::Test {
 protected:
-  DatasetOnDisk() {
-    generate_dataset(small_recipe(), {{"A", 3, 2}, {"A", 1, 3}}, directory_.path(), 1, [](std::size_t) {});
-  }
+  DatasetOnDisk() { generate_dataset(small_recipe(), {{"A", 3, 2}, {"A", 1, 3}}, directory_.path(), 1); }
 
   std::string error_of_case() const {
     try {

@@ -1,11 +1,8 @@
 #include "tanglebin/dataset/generate_dataset.hpp"
 
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/file.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <map>
@@ -18,6 +15,7 @@
 #include "tanglebin/cloud/ply.hpp"
 #include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/dataset/file_lock.hpp"
 #include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tests/support/complaint.hpp"
@@ -33,10 +31,8 @@ using test::TemporaryDirectory;
 using test::write_bytes;
 using testing::HasSubstr;
 
-constexpr auto no_progress = [](std::size_t) {};
-
-GenerateSummary generate(const Recipe& recipe, const std::filesystem::path& directory, int jobs = 1) {
-  return generate_dataset(recipe, cases(recipe), directory, jobs, no_progress);
+FillSummary generate(const Recipe& recipe, const std::filesystem::path& directory, int jobs = 1) {
+  return generate_dataset(recipe, cases(recipe), directory, jobs);
 }
 
 // Everything but how long it took.
@@ -116,9 +112,9 @@ TEST(GenerateDataset, WritesThePublishedLayoutAndAManifestOfIt) {
   const TemporaryDirectory directory;
   Recipe recipe = small_recipe();
   recipe.output = {.bin_points = true, .worlds = true, .pcds = true, .depths = true, .labels = true};
-  const GenerateSummary summary = generate(recipe, directory.path());
-  EXPECT_TRUE(summary.complete());
-  EXPECT_EQ(summary.made, 6U);
+  const FillSummary summary = generate(recipe, directory.path());
+  EXPECT_TRUE(summary.is_complete());
+  EXPECT_EQ(summary.progress.made, 6U);
 
   auto files = files_below(directory.path());
   std::istringstream manifest(files.at("manifest.jsonl"));
@@ -139,7 +135,7 @@ TEST(GenerateDataset, WritesThePublishedLayoutAndAManifestOfIt) {
     EXPECT_EQ(read_configuration(directory / record.files[1].path).size(),
               static_cast<std::size_t>(id.tubes));
   }
-  EXPECT_EQ(files.size(), listed + 3);  // the manifest, the times and the recipe
+  EXPECT_EQ(files.size(), listed + 4);  // the manifest, its digest, the times and the recipe
   std::istringstream written(files.at("recipe.toml"));
   EXPECT_EQ(cases(read_recipe(written, "recipe.toml")), cases(recipe));
 }
@@ -174,12 +170,12 @@ TEST(GenerateDataset, GoesOnWhereARunWasStopped) {
 
   std::vector<CaseId> some = cases(recipe);
   some = {some[4], some[1]};
-  EXPECT_EQ(generate_dataset(recipe, some, parts.path(), 2, no_progress).made, 2U);
-  const GenerateSummary rest = generate(recipe, parts.path());
-  EXPECT_EQ(rest.found, 2U);
-  EXPECT_EQ(rest.made, 4U);
+  EXPECT_EQ(generate_dataset(recipe, some, parts.path(), 2).progress.made, 2U);
+  const FillSummary rest = generate(recipe, parts.path());
+  EXPECT_EQ(rest.progress.found, 2U);
+  EXPECT_EQ(rest.progress.made, 4U);
   EXPECT_EQ(dataset_in(parts.path()), dataset_in(whole.path()));
-  EXPECT_EQ(generate(recipe, parts.path()).made, 0U);
+  EXPECT_EQ(generate(recipe, parts.path()).progress.made, 0U);
 }
 
 TEST(GenerateDataset, TakesUpTheJournalOfARunThatWasCutOff) {
@@ -204,16 +200,16 @@ TEST(GenerateDataset, TakesUpTheJournalOfARunThatWasCutOff) {
   std::filesystem::remove(cut / "manifest.jsonl");
   std::filesystem::remove(cut / "times.jsonl");
 
-  const GenerateSummary summary = generate(recipe, cut.path());
-  EXPECT_EQ(summary.found, 2U);
-  EXPECT_EQ(summary.made, 4U);
+  const FillSummary summary = generate(recipe, cut.path());
+  EXPECT_EQ(summary.progress.found, 2U);
+  EXPECT_EQ(summary.progress.made, 4U);
   EXPECT_EQ(dataset_in(cut.path()), dataset_in(whole.path()));
 }
 
 TEST(GenerateDataset, AnotherRecipeIsNotLetIn) {
   const TemporaryDirectory directory;
   Recipe recipe = small_recipe();
-  generate_dataset(recipe, {{"A", 1, 1}}, directory.path(), 1, no_progress);
+  generate_dataset(recipe, {{"A", 1, 1}}, directory.path(), 1);
   recipe.seed = 8;
   EXPECT_EQ(complaint([&] { generate(recipe, directory.path()); }),
             (directory / "recipe.toml").string() +
@@ -222,12 +218,13 @@ TEST(GenerateDataset, AnotherRecipeIsNotLetIn) {
 
 TEST(GenerateDataset, OneRunAtATime) {
   const TemporaryDirectory directory;
-  const int other = open(directory.path().c_str(), O_RDONLY | O_DIRECTORY);
-  ASSERT_EQ(flock(other, LOCK_EX), 0);
-  EXPECT_EQ(complaint([&] { generate(small_recipe(), directory.path()); }),
-            directory.path().string() + ": another run is writing here");
-  close(other);
-  EXPECT_TRUE(generate(small_recipe(), directory.path()).complete());
+  {
+    const auto other = FileLock::take(directory / "journal.jsonl", std::chrono::milliseconds(0));
+    ASSERT_TRUE(other.has_value());
+    EXPECT_EQ(complaint([&] { generate(small_recipe(), directory.path()); }),
+              directory.path().string() + ": another run is writing here");
+  }
+  EXPECT_TRUE(generate(small_recipe(), directory.path()).is_complete());
 }
 
 TEST(GenerateDataset, ADirectoryThatCannotBeMadeIsAnError) {
@@ -242,7 +239,7 @@ TEST(GenerateDataset, AFullDiskLosesNoFinishedCaseAndTheRunGoesOnLater) {
   const TemporaryDirectory full;
   const Recipe recipe = small_recipe();
   generate(recipe, whole.path());
-  generate_dataset(recipe, {{"A", 1, 1}}, full.path(), 1, no_progress);
+  generate_dataset(recipe, {{"A", 1, 1}}, full.path(), 1);
 
   // A limit on the size of files stands for the disk's end: no cloud fits under it any more, but small files
   // do.
@@ -256,8 +253,8 @@ TEST(GenerateDataset, AFullDiskLosesNoFinishedCaseAndTheRunGoesOnLater) {
   EXPECT_THAT(error, HasSubstr("A1/plys/2.ply: cannot write: File too large"));
   EXPECT_THAT(files_below(full.path() / "A1/plys"), testing::SizeIs(1));
 
-  const GenerateSummary summary = generate(recipe, full.path());
-  EXPECT_EQ(summary.found, 1U);
+  const FillSummary summary = generate(recipe, full.path());
+  EXPECT_EQ(summary.progress.found, 1U);
   EXPECT_EQ(dataset_in(full.path()), dataset_in(whole.path()));
 }
 

@@ -1,8 +1,10 @@
 #include "tanglebin/dataset/manifest.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tanglebin/base/error.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
@@ -38,6 +40,35 @@ TEST(Manifest, TimesReadBackAsTheyWere) {
             R"({"set":"A","tubes":10,"case":3,"generate":0.001,"settle":0.25,"scan":0.0125,"write":0.003,)"
             R"("peak_memory":64.5})");
   EXPECT_EQ(to_json(times_record(line, "times.jsonl", 1)), line);
+}
+
+TEST(Manifest, APathThatLeadsOutOfTheDatasetIsAnError) {
+  for (const std::string path : {"/etc/passwd", "../1.ply", "A10/../../1.ply", "A10/./1.ply", "A10/", "", ".",
+                                 "..", "A10/plys/../plys/1.ply", "A10//1.ply", "A10/1\\n.ply"}) {
+    std::string line = to_json(example_record());
+    const std::string good = "A10/plys/3.ply";
+    line.replace(line.find(good), good.size(), path);
+    EXPECT_THAT(test::complaint([&] { case_record(line, "manifest.jsonl", 12); }),
+                testing::AllOf(testing::StartsWith("manifest.jsonl:12: "),
+                               testing::HasSubstr("path is not below the dataset's directory: ")))
+        << path;
+  }
+}
+
+// Found by fuzz/manifest_fuzz: such a number was converted to an integer that cannot hold it.
+TEST(Manifest, ANumberThatIsNoWholeOneInRangeIsAnError) {
+  for (const std::string number : {"1e300", "1.5", "-1", "18446744073709551616", "null", "\"7\"", "true"}) {
+    std::string line = to_json(example_record());
+    line.replace(line.find("4321,"), 4, number);
+    EXPECT_THAT(test::complaint([&] { case_record(line, "manifest.jsonl", 12); }),
+                testing::AllOf(testing::StartsWith("manifest.jsonl:12: "),
+                               testing::HasSubstr("expected a whole number in range")))
+        << number;
+  }
+  std::string line = to_json(example_record());
+  line.replace(line.find("\"tubes\":10"), 10, "\"tubes\":3000000000");
+  EXPECT_THAT(test::complaint([&] { case_record(line, "manifest.jsonl", 12); }),
+              testing::HasSubstr("found 3000000000, expected a whole number in range"));
 }
 
 TEST(Manifest, ADamagedLineIsAnErrorThatSaysWhere) {

@@ -20,7 +20,7 @@ void expect_twenty_valid_cases(const std::string& recipe_file, const std::string
   const Recipe recipe = read_recipe(std::filesystem::path(TANGLEBIN_SOURCE) / "recipes" / recipe_file);
   std::vector<CaseId> twenty;
   for (int number = 1; number <= 20; ++number) twenty.push_back({set, 20, number});
-  ASSERT_TRUE(generate_dataset(recipe, twenty, directory.path(), 2, [](std::size_t) {}).complete());
+  ASSERT_TRUE(generate_dataset(recipe, twenty, directory.path(), 2).is_complete());
 
   const checker::CheckerBin bin{.length = 0.55, .width = 0.37};
   const checker::CheckerTube tube{.bend_min_deg = 0, .bend_max_deg = bend_max_deg};

@@ -202,6 +202,36 @@ TEST_F(SafeFile, WhatAKilledProcessLeftIsNotTouched) {
   for (const std::string& name : left) EXPECT_EQ(read(directory_ / name), "half");
 }
 
+TEST_F(SafeFile, StagedTakesItsNameWhenItIsCommittedAndNotBefore) {
+  fs::create_directory(directory_ / "staging");
+  {
+    StagedFile file(directory_ / "1.ply", directory_ / "staging");
+    file.append("one ");
+    file.append("file");
+    EXPECT_FALSE(fs::exists(directory_ / "1.ply"));
+    file.commit();
+  }
+  EXPECT_EQ(read(directory_ / "1.ply"), "one file");
+  EXPECT_THAT(names_in(directory_ / "staging"), IsEmpty());
+}
+
+TEST_F(SafeFile, StagedIsGoneWhereItIsNotCommitted) {
+  write_file(directory_ / "1.ply", "old");
+  fs::create_directory(directory_ / "staging");
+  { StagedFile(directory_ / "1.ply", directory_ / "staging").append("new"); }
+  EXPECT_EQ(read(directory_ / "1.ply"), "old");
+  EXPECT_THAT(names_in(directory_ / "staging"), IsEmpty());
+}
+
+TEST_F(SafeFile, StagedSaysWhatItIsThatCannotBeWritten) {
+  EXPECT_THAT(complaint([&] { write_staged(directory_ / "1.ply", "x", directory_ / "none"); }),
+              AllOf(HasSubstr((directory_ / "1.ply").string()), HasSubstr("No such file or directory")));
+  const FileSizeLimit limit(10);
+  EXPECT_THAT(complaint([&] { write_staged(directory_ / "1.ply", std::string(100, 'x'), directory_); }),
+              HasSubstr("1.ply: cannot write: File too large"));
+  EXPECT_THAT(names_in(directory_), IsEmpty());
+}
+
 using MakeDirectories = SafeFile;
 
 TEST_F(MakeDirectories, MakesAllThatAreMissing) {

@@ -31,5 +31,16 @@ TEST(Sha256, BytesAreBinary) {
   EXPECT_NE(sha256(std::string("a\0b", 3)), sha256("a"));
 }
 
+TEST(Sha256, OfBytesThatComePieceByPieceIsThatOfAllOfThem) {
+  Sha256 hash;
+  std::string all;
+  for (int piece = 0; piece < 100; ++piece) {
+    const std::string bytes(static_cast<std::size_t>(piece), static_cast<char>(piece));
+    hash.add(bytes);
+    all += bytes;
+    EXPECT_EQ(hash.hex(), sha256(all));  // and it goes on after that
+  }
+}
+
 }  // namespace
 }  // namespace tanglebin

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
+
+#include "tanglebin/dataset/catalogue.hpp"
 #include "tanglebin/dataset/recipe.hpp"
 #include "tanglebin/scan/camera.hpp"
 
@@ -18,6 +22,16 @@ inline Recipe small_recipe() {
   set.spec.segments[0].bend_max = 0.5;
   recipe.sets.push_back(set);
   return recipe;
+}
+
+/// Case `number` of one tube of set A, as failed.
+inline FailedCase failed_case_of(int number, std::uint64_t seed, const std::string& reason) {
+  FailedCase failed;
+  failed.id.set = "A";
+  failed.id.number = number;
+  failed.seed = seed;
+  failed.reason = reason;
+  return failed;
 }
 
 }  // namespace tanglebin::test

@@ -1,10 +1,7 @@
 #include "tanglebin/experiment/run_experiment.hpp"
 
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -17,6 +14,7 @@
 
 #include "small_dataset.hpp"
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/file_lock.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/experiment/results.hpp"
 
@@ -29,8 +27,6 @@ using test::SmallDataset;
 using test::TemporaryDirectory;
 using test::write_bytes;
 using testing::HasSubstr;
-
-constexpr auto no_progress = [](std::size_t) {};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream in(text);
@@ -55,7 +51,7 @@ protected:
   }
   ExperimentSummary run(const TemporaryDirectory& results, const std::vector<CaseId>& wanted,
                         int jobs = 1) const {
-    return run_experiment(dataset_.read(), settings_, wanted, results.path(), jobs, no_progress);
+    return run_experiment(dataset_.read(), settings_, wanted, results.path(), jobs);
   }
 
   // Everything but how long it took.
@@ -72,8 +68,8 @@ protected:
 TEST_F(RunExperiment, LeavesALineForEachRunInTheOrderOfMethodCaseAndRatio) {
   const TemporaryDirectory results;
   const ExperimentSummary summary = run(results, 2);
-  EXPECT_TRUE(summary.complete());
-  EXPECT_EQ(summary.made, 6U);
+  EXPECT_TRUE(summary.is_complete());
+  EXPECT_EQ(summary.progress.made, 6U);
 
   const auto lines = lines_of(bytes_of(results / "results.jsonl"));
   const auto times = lines_of(bytes_of(results / "times.jsonl"));
@@ -134,12 +130,12 @@ TEST_F(RunExperiment, ACasesResultsDoNotDependOnTheOtherCasesAndMoreMayBeAdded) 
   const TemporaryDirectory whole;
   const TemporaryDirectory parts;
   run(whole);
-  EXPECT_EQ(run(parts, {{"A", 3, 2}, {"A", 1, 3}}).made, 2U);
+  EXPECT_EQ(run(parts, {{"A", 3, 2}, {"A", 1, 3}}).progress.made, 2U);
   const ExperimentSummary rest = run(parts);
-  EXPECT_EQ(rest.found, 2U);
-  EXPECT_EQ(rest.made, 4U);
+  EXPECT_EQ(rest.progress.found, 2U);
+  EXPECT_EQ(rest.progress.made, 4U);
   EXPECT_EQ(results_in(parts), results_in(whole));
-  EXPECT_EQ(run(parts).made, 0U);
+  EXPECT_EQ(run(parts).progress.made, 0U);
 }
 
 TEST_F(RunExperiment, TakesUpTheJournalOfARunThatWasCutOff) {
@@ -163,8 +159,8 @@ TEST_F(RunExperiment, TakesUpTheJournalOfARunThatWasCutOff) {
   write_bytes(cut / "journal.jsonl", journal.at(1) + '\n' + torn);
 
   const ExperimentSummary summary = run(cut);
-  EXPECT_EQ(summary.found, 2U);
-  EXPECT_EQ(summary.made, 4U);
+  EXPECT_EQ(summary.progress.found, 2U);
+  EXPECT_EQ(summary.progress.made, 4U);
   EXPECT_EQ(results_in(cut), results_in(whole));
 }
 
@@ -172,12 +168,14 @@ TEST_F(RunExperiment, AnInterruptedRunGoesOnLater) {
   const TemporaryDirectory whole;
   const TemporaryDirectory parts;
   run(whole);
-  const ExperimentSummary first = run_experiment(dataset_.read(), settings_, cases(dataset_.read()),
-                                                 parts.path(), 1, [](std::size_t) { raise(SIGINT); });
-  EXPECT_EQ(first.found, 0U);
-  EXPECT_EQ(lines_of(bytes_of(parts / "results.jsonl")).size(), first.made * settings_.methods.size() * 2);
+  const ExperimentSummary first =
+      run_experiment(dataset_.read(), settings_, cases(dataset_.read()), parts.path(), 1,
+                     {.ended = [](const auto&, const auto&) { raise(SIGINT); }});
+  EXPECT_EQ(first.progress.found, 0U);
+  EXPECT_EQ(lines_of(bytes_of(parts / "results.jsonl")).size(),
+            first.progress.made * settings_.methods.size() * 2);
   EXPECT_FALSE(std::filesystem::exists(parts / "journal.jsonl"));
-  EXPECT_EQ(run(parts).found, first.made);
+  EXPECT_EQ(run(parts).progress.found, first.progress.made);
   EXPECT_EQ(results_in(parts), results_in(whole));
 }
 
@@ -205,19 +203,16 @@ TEST_F(RunExperiment, AnotherExperimentIsNotLetIn) {
 TEST_F(RunExperiment, ADatasetIsNotWrittenInto) {
   const auto before = files_below(dataset_ / "");
   const Dataset dataset = dataset_.read();
-  EXPECT_THAT(error_of([&] {
-                run_experiment(dataset, settings_, cases(dataset), dataset.directory, 1, no_progress);
-              }),
+  EXPECT_THAT(error_of([&] { run_experiment(dataset, settings_, cases(dataset), dataset.directory, 1); }),
               HasSubstr("found a dataset, expected a directory for results"));
   EXPECT_EQ(files_below(dataset_ / ""), before);
 }
 
 TEST_F(RunExperiment, OneRunAtATime) {
   const TemporaryDirectory results;
-  const int other = open(results.path().c_str(), O_RDONLY | O_DIRECTORY);
-  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  const auto other = FileLock::take(results / "journal.jsonl", std::chrono::milliseconds(0));
+  ASSERT_TRUE(other.has_value());
   EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("another run is writing here"));
-  close(other);
 }
 
 TEST_F(RunExperiment, AMissingCloudIsAnErrorThatNamesItAndLosesNoFinishedCase) {
@@ -228,7 +223,7 @@ TEST_F(RunExperiment, AMissingCloudIsAnErrorThatNamesItAndLosesNoFinishedCase) {
   std::filesystem::remove(dataset_ / "A1/plys/3.ply");
   EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("A1/plys/3.ply: cannot be opened"));
   write_bytes(dataset_ / "A1/plys/3.ply", cloud);
-  EXPECT_EQ(run(results).found, 2U);
+  EXPECT_EQ(run(results).progress.found, 2U);
   EXPECT_EQ(results_in(results), results_in(whole));
 }
 

@@ -13,7 +13,7 @@ public:
   SmallDataset() {
     Recipe recipe = small_recipe();
     recipe.camera = downward_camera(480, 300, focal_length_from_hfov(480, 1.22), {0, 0, 2});
-    generate_dataset(recipe, cases(recipe), directory_.path(), 1, [](std::size_t) {});
+    generate_dataset(recipe, cases(recipe), directory_.path(), 1);
   }
 
   Dataset read() const { return read_dataset(directory_.path()); }

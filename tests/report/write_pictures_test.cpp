@@ -17,7 +17,7 @@ TEST(WritePictures, DrawsTruthAndLabelsOfTheBestTheMedianAndTheWorstRun) {
   const test::TemporaryDirectory results;
   const Dataset dataset = directory.read();
   const ExperimentSettings settings{.methods = methods(), .ratios = {0.4, 0.9}, .seed = 5};
-  run_experiment(dataset, settings, cases(dataset), results.path(), 2, [](std::size_t) {});
+  run_experiment(dataset, settings, cases(dataset), results.path(), 2);
   write_pictures(results.path(), dataset, settings);
 
   std::istringstream lines(test::bytes_of(results / "pictures.jsonl"));

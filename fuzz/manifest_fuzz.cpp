@@ -1,0 +1,72 @@
+// Any bytes in place of a file that says what a dataset has are either cases or an InputError, and what was
+// read is written so that it reads back the same. The first byte chooses the file.
+
+#include <unistd.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/catalogue.hpp"
+#include "tanglebin/dataset/finished_cases.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* record =
+    R"({"set":"A","tubes":1,"case":1,"seed":"0000000000000011","simulated":1.5,"largest_overlap":0.0001,)"
+    R"("points":7,"rejected":[],"files":[{"path":"A1/plys/1.ply","bytes":3,"sha256":"ab"}]})";
+
+fs::path fresh_directory() {
+  // In memory, where there is such a place: a harness writes thousands of files a second.
+  const fs::path shared = "/dev/shm";
+  const fs::path parent = fs::is_directory(shared) ? shared : fs::temp_directory_path();
+  const fs::path directory = parent / ("tanglebin-fuzz-manifest-" + std::to_string(getpid()));
+  fs::remove_all(directory);
+  fs::create_directories(directory);
+  return directory;
+}
+
+void check_that_it_reads_back(const tanglebin::Catalogue& catalogue, const fs::path& directory) {
+  const std::vector<tanglebin::CaseId> ids = catalogue.cases();
+  std::vector<std::string> records;
+  records.reserve(ids.size());
+  for (const tanglebin::CaseId& id : ids) records.push_back(to_json(catalogue.record(id)));
+  const tanglebin::DatasetSummary written = catalogue.write(ids, {{{"tanglebin", "0"}}}, directory);
+  fs::remove(directory / "journal.jsonl");
+  const tanglebin::Catalogue back(directory);
+  if (back.cases() != ids || written.cases != ids.size()) std::abort();
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (to_json(back.record(ids[i])) != records[i]) std::abort();
+  }
+  if (tanglebin::read_dataset_summary(directory)->digest != written.digest) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr std::array<const char*, 5> files{"manifest.jsonl", "times.jsonl", "failed.jsonl", "journal.jsonl",
+                                             "dataset.json"};
+  if (size == 0) return 0;
+  const fs::path directory = fresh_directory();
+  std::ofstream(directory / "manifest.jsonl") << record << '\n';
+  std::ofstream(directory / files[data[0] % files.size()], std::ios::binary)
+      << std::string(data + 1, data + size);
+  try {
+    check_that_it_reads_back(tanglebin::Catalogue(directory), directory);
+    tanglebin::finished_cases(directory);
+    tanglebin::read_dataset_summary(directory);
+  } catch (const tanglebin::InputError& error) {
+    // The program prints it on one line.
+    if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
+  }
+  fs::remove_all(directory);
+  return 0;
+}

@@ -1,0 +1,69 @@
+#include "tanglebin/cli/fill_report.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tanglebin/cli/many_cases.hpp"
+
+namespace tanglebin::cli {
+namespace {
+
+nlohmann::ordered_json json_of(const FillReport& report, const FillSummary& summary, double seconds) {
+  const RunProgress& run = summary.progress;
+  const DatasetSummary& dataset = summary.dataset;
+  nlohmann::ordered_json json{{"directory", report.directory},
+                              {"wanted", run.wanted},
+                              {"found", run.found},
+                              {"made", run.made},
+                              {"failed", run.failed},
+                              {"rejected", run.rejected},
+                              {"complete", summary.is_complete()},
+                              {"seconds", seconds}};
+  json["dataset"] = {{"cases", dataset.cases},
+                     {"recipe_cases", dataset.recipe_cases},
+                     {"failed", dataset.failed},
+                     {"digest", dataset.digest}};
+  return json;
+}
+
+void print_text(const FillReport& report, const FillSummary& summary, double seconds) {
+  const RunProgress& run = summary.progress;
+  const DatasetSummary& dataset = summary.dataset;
+  fmt::print("{}: {} cases {} in {:.1f} s ({} attempts rejected), {} were there", report.directory, run.made,
+             report.verb, seconds, run.rejected, run.found);
+  if (run.failed > 0) fmt::print(", {} failed", run.failed);
+  if (summary.was_stopped()) {
+    fmt::print("; stopped, {} to go", run.wanted - run.found - run.made - run.failed);
+  }
+  fmt::print("\n{}: ", report.directory);
+  if (dataset.is_complete()) {
+    fmt::print("complete, {} cases", dataset.cases);
+  } else {
+    fmt::print("{} of the recipe's {} cases", dataset.cases, dataset.recipe_cases);
+  }
+  fmt::print(", digest {}\n", dataset.digest);
+}
+
+}  // namespace
+
+void report_fill(const FillReport& report, const FillSummary& summary, double seconds) {
+  if (report.progress == ProgressStyle::json) {
+    nlohmann::ordered_json event{{"event", "end"}};
+    event.update(json_of(report, summary, seconds));
+    fmt::print("{}\n", event.dump());
+  } else if (report.json) {
+    fmt::print("{}\n", json_of(report, summary, seconds).dump());
+  } else {
+    print_text(report, summary, seconds);
+  }
+  for (const FailedCase& failed : summary.failed) {
+    fmt::print(stderr, "tanglebin: {}/{}: failed: {} (seed {:016x})\n",
+               folder_name(failed.id.set, failed.id.tubes), failed.id.number, failed.reason, failed.seed);
+  }
+  if (summary.was_stopped()) throw CLI::RuntimeError(exit_interrupted);
+  if (!summary.failed.empty()) throw CLI::RuntimeError(exit_cases_failed);
+}
+
+}  // namespace tanglebin::cli

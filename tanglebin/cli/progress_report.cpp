@@ -1,0 +1,111 @@
+#include "tanglebin/cli/progress_report.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace tanglebin::cli {
+namespace {
+
+std::size_t done(const RunProgress& progress) {
+  return progress.made + progress.failed;
+}
+
+std::size_t remaining(const RunProgress& progress) {
+  return progress.wanted - progress.found - done(progress);
+}
+
+// A program at the other end of a pipe is to have the event now.
+void print_event(const nlohmann::ordered_json& event) {
+  fmt::print("{}\n", event.dump());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+void add_progress_option(CLI::App& command, ProgressStyle& style) {
+  const std::map<std::string, ProgressStyle> styles{{"line", ProgressStyle::line},
+                                                    {"json", ProgressStyle::json}};
+  command
+      .add_option("--progress", style,
+                  "line: one on the terminal; json: a line of JSON on standard output for each event")
+      ->transform(CLI::CheckedTransformer(styles))
+      ->option_text("line|json [line]");
+}
+
+ProgressReport::~ProgressReport() {
+  if (is_shown_) fmt::print(stderr, "\n");
+}
+
+RunObserver ProgressReport::observer() {
+  if (style_ == ProgressStyle::json) {
+    return {.progress = [this](const RunProgress& progress) { print_progress(progress); },
+            .ended = [](const CaseEvent& event, const RunProgress&) { print_end_of_case(event); }};
+  }
+  RunObserver observer;
+  if (is_terminal_) observer.progress = [this](const RunProgress& progress) { show_line(progress); };
+  return observer;
+}
+
+double ProgressReport::rate(const RunProgress& progress) const {
+  return static_cast<double>(done(progress)) / seconds_since(start_);
+}
+
+void ProgressReport::show_line(const RunProgress& progress) {
+  fmt::print(stderr, "\r{} of {} cases", progress.found + done(progress), progress.wanted);
+  if (done(progress) > 0) {
+    const double pace = rate(progress);
+    fmt::print(stderr, ", {:.2g} a second, {} left", pace,
+               duration_text(static_cast<double>(remaining(progress)) / pace));
+  }
+  if (progress.rejected > 0) fmt::print(stderr, ", {} attempts rejected", progress.rejected);
+  if (progress.failed > 0) fmt::print(stderr, ", {} cases failed", progress.failed);
+  fmt::print(stderr, " \x1b[K");
+  is_shown_ = true;
+}
+
+void ProgressReport::print_progress(const RunProgress& progress) {
+  if (Clock::now() - last_printed_ < std::chrono::seconds(1)) return;
+  last_printed_ = Clock::now();
+  nlohmann::ordered_json event{{"event", "progress"},       {"wanted", progress.wanted},
+                               {"found", progress.found},   {"made", progress.made},
+                               {"failed", progress.failed}, {"rejected", progress.rejected},
+                               {"rate", rate(progress)},    {"remaining_seconds", nullptr}};
+  if (done(progress) > 0) {
+    event["remaining_seconds"] = static_cast<double>(remaining(progress)) / rate(progress);
+  }
+  print_event(event);
+}
+
+void ProgressReport::print_end_of_case(const CaseEvent& event) {
+  nlohmann::ordered_json json{{"event", event.failure.empty() ? "case" : "failure"},
+                              {"set", event.id.set},
+                              {"tubes", event.id.tubes},
+                              {"case", event.id.number}};
+  if (event.failure.empty()) {
+    json["seconds"] = event.seconds;
+    json["rejected"] = event.rejected;
+  } else {
+    json["reason"] = event.failure;
+  }
+  print_event(json);
+}
+
+std::string duration_text(double seconds) {
+  constexpr long in_minute = 60;
+  constexpr long in_hour = 3600;
+  const long whole = std::lround(seconds);
+  if (whole < in_minute) return fmt::format("{} s", whole);
+  if (whole < in_hour) return fmt::format("{} min {:02} s", whole / in_minute, whole % in_minute);
+  return fmt::format("{} h {:02} min", whole / in_hour, whole % in_hour / in_minute);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace tanglebin::cli

@@ -1,0 +1,102 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/many_cases.hpp"
+#include "tanglebin/cli/progress_report.hpp"
+#include "tanglebin/dataset/repair_dataset.hpp"
+#include "tanglebin/dataset/verify_dataset.hpp"
+
+namespace tanglebin::cli {
+namespace {
+
+constexpr int exit_faults = 1;
+
+struct VerifyArguments {
+  std::string dataset;
+  bool rest = false;
+  bool repair = false;
+  int jobs = 1;
+  ProgressStyle progress = ProgressStyle::line;
+  bool json = false;
+};
+
+VerifySummary verify(const VerifyArguments& arguments) {
+  ProgressReport progress(arguments.progress);
+  return verify_dataset(arguments.dataset, {.jobs = arguments.jobs, .rest = arguments.rest},
+                        progress.observer());
+}
+
+FillSummary repair(const VerifyArguments& arguments, const VerifySummary& found) {
+  ProgressReport progress(arguments.progress);
+  return repair_dataset(arguments.dataset, found, arguments.jobs, progress.observer());
+}
+
+nlohmann::ordered_json json_of(const VerifyArguments& arguments, const VerifySummary& summary,
+                               std::size_t repaired) {
+  nlohmann::ordered_json json;
+  if (arguments.progress == ProgressStyle::json) json["event"] = "end";
+  json["directory"] = arguments.dataset;
+  json["cases"] = summary.cases;
+  json["recipe_cases"] = cases(summary.recipe).size();
+  json["digest"] = summary.digest;
+  json["repaired"] = repaired;
+  json["stopped"] = summary.was_stopped;
+  json["faults"] = nlohmann::ordered_json::array();
+  for (const auto& [where, what] : summary.faults) {
+    json["faults"].push_back({{"where", where}, {"what", what}});
+  }
+  return json;
+}
+
+void print_text(const VerifyArguments& arguments, const VerifySummary& summary, std::size_t repaired) {
+  for (const auto& [where, what] : summary.faults) fmt::print("{}: {}\n", where, what);
+  fmt::print("{}: {} of the recipe's {} cases, digest {}; ", arguments.dataset, summary.cases,
+             cases(summary.recipe).size(), summary.digest);
+  if (repaired > 0) fmt::print("{} cases made again, ", repaired);
+  fmt::print("{}\n", summary.was_stopped      ? "stopped"
+                     : summary.faults.empty() ? "nothing is wrong"
+                                              : fmt::format("{} faults", summary.faults.size()));
+}
+
+void verify_and_report(const VerifyArguments& arguments) {
+  VerifySummary summary = verify(arguments);
+  std::size_t repaired = 0;
+  if (arguments.repair && !summary.faults.empty() && !summary.was_stopped) {
+    repaired = repair(arguments, summary).progress.made;
+    summary = verify(arguments);
+  }
+  if (arguments.json || arguments.progress == ProgressStyle::json) {
+    fmt::print(
+        "{}\n",
+        json_of(arguments, summary, repaired).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    print_text(arguments, summary, repaired);
+  }
+  if (summary.was_stopped) throw CLI::RuntimeError(exit_interrupted);
+  if (!summary.faults.empty()) throw CLI::RuntimeError(exit_faults);
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app) {
+  const auto arguments = std::make_shared<VerifyArguments>();
+  CLI::App* command =
+      app.add_subcommand("verify", "Look for everything that can be wrong with a dataset, and repair it");
+  command->add_option("dataset", arguments->dataset, "Directory of a dataset")->required();
+  command->add_flag("--rest", arguments->rest, "Simulate every heap again, too: does it lie still?");
+  command->add_flag("--repair", arguments->repair, "Make the cases that are missing or broken again");
+  add_jobs_option(*command, arguments->jobs);
+  add_progress_option(*command, arguments->progress);
+  command->add_flag("--json", arguments->json, "Print what was found as JSON");
+  command->footer(
+      "Example:\n  tanglebin verify dataset --repair\n"
+      "Ends with 1 and a list where something is wrong, after a repair with what is still wrong.");
+  command->callback([arguments] { verify_and_report(*arguments); });
+}
+
+}  // namespace tanglebin::cli

@@ -1,0 +1,88 @@
+#include "tanglebin/dataset/merge_datasets.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/dataset/finished_cases.hpp"
+
+namespace tanglebin {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A dataset to be merged.
+struct Part {
+  fs::path directory;
+  Catalogue catalogue;
+};
+
+std::vector<Part> open_parts(const std::vector<fs::path>& directories, const Recipe& recipe) {
+  std::vector<Part> parts;
+  parts.reserve(directories.size());
+  for (const fs::path& directory : directories) {
+    expect_same_recipe(directory / "recipe.toml", recipe);
+    parts.push_back({directory, Catalogue(directory)});
+  }
+  return parts;
+}
+
+// Which part to take each case from.
+std::map<CaseId, const Part*> sources(const std::vector<Part>& parts, const std::vector<CaseId>& of_recipe) {
+  const std::set<CaseId> known(of_recipe.begin(), of_recipe.end());
+  std::map<CaseId, const Part*> sources;
+  for (const Part& part : parts) {
+    const std::string manifest = (part.directory / manifest_name).string();
+    for (const CaseId& id : part.catalogue.cases()) {
+      const std::string name = fmt::format("{}/{}", folder_name(id.set, id.tubes), id.number);
+      if (!known.contains(id)) throw InputError({manifest, 0, name}, "not a case of the recipe");
+      const auto [other, is_new] = sources.try_emplace(id, &part);
+      if (is_new) continue;
+      if (to_json(part.catalogue.record(id)) != to_json(other->second->catalogue.record(id))) {
+        throw InputError({manifest, 0, name},
+                         fmt::format("another scene than in {}", other->second->directory.string()));
+      }
+    }
+  }
+  return sources;
+}
+
+MadeCase copy_case(const Part& part, const CaseId& id, const CaseWriter& writer) {
+  const CaseRecord record = part.catalogue.record(id);
+  for (const FileRecord& file : record.files) {
+    writer.write(file.path, checked_bytes(part.directory, file));
+  }
+  return {record, part.catalogue.times(id).value_or(TimesRecord{id, {}, 0})};
+}
+
+}  // namespace
+
+FillSummary merge_datasets(const std::vector<fs::path>& parts, const fs::path& directory, int jobs,
+                           const RunObserver& observer) {
+  if (parts.empty()) throw InputError({}, "no datasets to merge");
+  FillRequest request{.recipe = read_recipe(parts.front() / "recipe.toml"),
+                      .wanted = {},
+                      .directory = directory,
+                      .jobs = jobs};
+  const std::vector<Part> opened = open_parts(parts, request.recipe);
+  const std::vector<CaseId> all = cases(request.recipe);
+  const std::map<CaseId, const Part*> source_of = sources(opened, all);
+  std::ranges::copy_if(all, std::back_inserter(request.wanted),
+                       [&](const CaseId& id) { return source_of.contains(id); });
+  for (const Part& part : opened) {
+    for (const auto& [id, failed] : part.catalogue.failed()) request.failed.push_back(failed);
+    if (const auto summary = read_dataset_summary(part.directory)) {
+      request.made_with.insert(summary->made_with.begin(), summary->made_with.end());
+    }
+  }
+  return fill_dataset(
+      request,
+      [&](const CaseId& id, const CaseWriter& writer) { return copy_case(*source_of.at(id), id, writer); },
+      observer);
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,78 @@
+#include "tanglebin/dataset/shard.hpp"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <string_view>
+
+#include "tanglebin/base/error.hpp"
+
+namespace tanglebin {
+namespace {
+
+constexpr std::string_view remedy = "; --shard I/N says which part to make";
+
+std::optional<int> number_in(const Environment& environment, const std::string& name) {
+  const std::optional<std::string> text = environment(name);
+  if (!text) return std::nullopt;
+  int number = 0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), number);
+  if (error != std::errc{} || end != text->data() + text->size() || number < 0) {
+    throw InputError({"", 0, name}, fmt::format("\"{}\"", *text),
+                     fmt::format("a whole number, not negative{}", remedy));
+  }
+  return number;
+}
+
+int required_number_in(const Environment& environment, const std::string& name, std::string_view who) {
+  const std::optional<int> number = number_in(environment, name);
+  if (!number) throw InputError({"", 0, name}, fmt::format("not set, though {}{}", who, remedy));
+  return *number;
+}
+
+Shard checked(const Shard& shard, const std::string& variable, int found) {
+  if (shard.index >= 1 && shard.index <= shard.count) return shard;
+  throw InputError({"", 0, variable}, fmt::format("{}", found),
+                   fmt::format("one of {} numbers without a gap{}", shard.count, remedy));
+}
+
+std::optional<Shard> slurm_shard(const Environment& environment) {
+  const std::optional<int> id = number_in(environment, "SLURM_ARRAY_TASK_ID");
+  if (!id) return std::nullopt;
+  constexpr std::string_view who = "SLURM_ARRAY_TASK_ID is";
+  const int count = required_number_in(environment, "SLURM_ARRAY_TASK_COUNT", who);
+  const int first = required_number_in(environment, "SLURM_ARRAY_TASK_MIN", who);
+  const int step = number_in(environment, "SLURM_ARRAY_TASK_STEP").value_or(1);
+  const bool is_on_a_step = step > 0 && (*id - first) % step == 0;
+  return checked({is_on_a_step ? (*id - first) / step + 1 : 0, count}, "SLURM_ARRAY_TASK_ID", *id);
+}
+
+std::optional<Shard> kubernetes_shard(const Environment& environment) {
+  const std::optional<int> index = number_in(environment, "JOB_COMPLETION_INDEX");
+  if (!index) return std::nullopt;
+  const int count = required_number_in(environment, "JOB_COMPLETIONS", "JOB_COMPLETION_INDEX is");
+  return checked({*index + 1, count}, "JOB_COMPLETION_INDEX", *index);
+}
+
+}  // namespace
+
+std::vector<CaseId> cases_of(const Shard& shard, const std::vector<CaseId>& cases) {
+  std::vector<CaseId> part;
+  const auto count = static_cast<std::size_t>(shard.count);
+  part.reserve(cases.size() / count + 1);
+  for (auto i = static_cast<std::size_t>(shard.index - 1); i < cases.size(); i += count) {
+    part.push_back(cases[i]);
+  }
+  return part;
+}
+
+std::string name_of(const Shard& shard) {
+  return fmt::format("{}-of-{}", shard.index, shard.count);
+}
+
+std::optional<Shard> shard_from(const Environment& environment) {
+  if (const std::optional<Shard> shard = slurm_shard(environment)) return shard;
+  return kubernetes_shard(environment);
+}
+
+}  // namespace tanglebin

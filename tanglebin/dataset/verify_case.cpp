@@ -1,0 +1,209 @@
+#include "tanglebin/dataset/verify_case.hpp"
+
+#include <fmt/core.h>
+#include <png.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/cloud/pcd.hpp"
+#include "tanglebin/cloud/ply.hpp"
+#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/settle/overlap.hpp"
+#include "tanglebin/tube/mass_properties.hpp"
+
+namespace tanglebin {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The kinds of files that the recipe gives to every case.
+std::vector<std::string_view> kinds_of(const OutputSettings& output) {
+  std::vector<std::string_view> kinds{"plys", "tube_configurations"};
+  if (output.worlds) kinds.emplace_back("gazebo_worlds");
+  if (output.pcds) kinds.emplace_back("pcds");
+  if (output.depths) kinds.emplace_back("depths");
+  if (output.labels) kinds.emplace_back("labels");
+  return kinds;
+}
+
+bool is_of_kind(const std::string& path, std::string_view kind) {
+  return fs::path(path).parent_path().filename() == kind;
+}
+
+// Decodes all of it. Says what is wrong; empty where nothing is.
+std::string fault_of_png(const std::string& bytes, int width, int height) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) return image.message;
+  if (image.width != static_cast<png_uint_32>(width) || image.height != static_cast<png_uint_32>(height)) {
+    std::string fault =
+        fmt::format("found {} x {} pixels, expected {} x {}", image.width, image.height, width, height);
+    png_image_free(&image);
+    return fault;
+  }
+  image.format = PNG_FORMAT_GRAY;
+  std::vector<png_byte> pixels(PNG_IMAGE_SIZE(image));
+  return png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0 ? image.message : "";
+}
+
+// The camera of the scanner in whose folder the file is.
+const Camera& camera_of(const Recipe& recipe, const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().parent_path().filename().string();
+  const auto found = std::ranges::find(recipe.further_scanners, folder, &Scanner::name);
+  return found == recipe.further_scanners.end() ? recipe.camera : found->camera;
+}
+
+// How many points the manifest says that this scanner's cloud has.
+std::size_t points_of(const CaseRecord& record, const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().parent_path().filename().string();
+  const auto found = std::ranges::find(record.scanners, folder, &ScannerRecord::name);
+  return found == record.scanners.end() ? record.points : found->points;
+}
+
+/// One case under inspection.
+class Inspection {
+public:
+  Inspection(const fs::path& directory, const Recipe& recipe, const CaseRecord& record)
+      : directory_(directory), recipe_(recipe), record_(record) {}
+
+  void inspect_files() {
+    for (const std::string_view kind : kinds_of(recipe_.output)) {
+      const bool is_there = std::ranges::any_of(
+          record_.files, [&](const FileRecord& file) { return is_of_kind(file.path, kind); });
+      if (!is_there) add(case_name(), fmt::format("has no file in {}", kind));
+    }
+    for (const FileRecord& file : record_.files) inspect_file(file);
+  }
+
+  void inspect_heap(bool rest) {
+    if (tubes_.empty()) return;
+    const double limit = recipe_.settle.overlap_max + rounding;
+    const double overlap = largest_tube_overlap(tubes_);
+    if (overlap > limit) add(case_name(), fmt::format("two tubes overlap by {:.3f} mm", 1e3 * overlap));
+    const double in_bin = largest_bin_overlap(tubes_, recipe_.bin);
+    if (in_bin > limit) add(case_name(), fmt::format("a tube overlaps the bin by {:.3f} mm", 1e3 * in_bin));
+    for (const Tube& tube : tubes_) inspect_place(tube);
+    if (rest && faults_.empty()) {
+      const std::string fault = fault_of_heap(tubes_, recipe_.bin, recipe_.settle);
+      if (!fault.empty()) add(case_name(), fault);
+    }
+  }
+
+  std::vector<DatasetFault> take_faults() { return std::move(faults_); }
+
+private:
+  static constexpr double rounding = 1e-8;  // m: positions are whole nanometres
+
+  std::string case_name() const {
+    return fmt::format("{}/{}", folder_name(record_.id.set, record_.id.tubes), record_.id.number);
+  }
+
+  void add(std::string where, std::string what) { faults_.push_back({std::move(where), std::move(what)}); }
+
+  // A reader's complaint names the file by itself.
+  void inspect_file(const FileRecord& file) {
+    const std::string prefix = (directory_ / file.path).string() + ": ";
+    try {
+      read(file.path, checked_bytes(directory_, file));
+    } catch (const InputError& error) {
+      const std::string_view message = error.what();
+      add(file.path, std::string(message.starts_with(prefix) ? message.substr(prefix.size()) : message));
+    }
+  }
+
+  void read(const std::string& path, const std::string& bytes) {
+    const std::string name = (directory_ / path).string();
+    std::istringstream in(bytes);
+    if (is_of_kind(path, "plys")) {
+      inspect_cloud(path, read_ply(in, name));
+    } else if (is_of_kind(path, "pcds")) {
+      inspect_cloud_labels(path, read_pcd(in, name));
+    } else if (is_of_kind(path, "tube_configurations")) {
+      inspect_tubes(path, read_configuration(in, name));
+    } else if (is_of_kind(path, "gazebo_worlds")) {
+      inspect_world(path, bytes);
+    } else if (path.ends_with(".json")) {
+      if (!nlohmann::json::accept(bytes)) add(path, "not JSON");
+    } else if (path.ends_with(".png")) {
+      const Camera& camera = camera_of(recipe_, path);
+      const std::string fault = fault_of_png(bytes, camera.width, camera.height);
+      if (!fault.empty()) add(path, fault);
+    }
+  }
+
+  void inspect_cloud(const std::string& path, const PointCloud& cloud) {
+    if (const std::size_t expected = points_of(record_, path); cloud.points.size() != expected) {
+      add(path,
+          fmt::format("found {} points, expected {}, as the manifest says", cloud.points.size(), expected));
+    }
+    inspect_cloud_labels(path, cloud);
+  }
+
+  void inspect_cloud_labels(const std::string& path, const PointCloud& cloud) {
+    const auto is_wrong = [&](int label) { return label < null_label || label > record_.id.tubes; };
+    const auto wrong = std::ranges::find_if(cloud.labels, is_wrong);
+    if (wrong != cloud.labels.end()) {
+      add(path, fmt::format("found label {}, expected at most {}", *wrong, record_.id.tubes));
+    }
+  }
+
+  void inspect_tubes(const std::string& path, std::vector<Tube> tubes) {
+    if (tubes.size() != static_cast<std::size_t>(record_.id.tubes)) {
+      add(path, fmt::format("found {} tubes, expected {}", tubes.size(), record_.id.tubes));
+    }
+    const auto set = std::ranges::find(recipe_.sets, record_.id.set, &SetRecipe::name);
+    for (Tube& tube : tubes) tube.mass = set->spec.mass;  // the format does not carry it
+    tubes_ = std::move(tubes);
+  }
+
+  void inspect_world(const std::string& path, const std::string& bytes) {
+    tinyxml2::XMLDocument document;
+    if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) {
+      add(path, fmt::format("no XML: {}", document.ErrorStr()));
+      return;
+    }
+    const tinyxml2::XMLElement* root = document.RootElement();
+    if (root == nullptr || std::string_view(root->Name()) != "sdf" ||
+        root->FirstChildElement("world") == nullptr) {
+      add(path, "no SDF world");
+    }
+  }
+
+  void inspect_place(const Tube& tube) {
+    const Eigen::Vector3d centre = mass_properties(tube).centre;
+    const bool is_inside = std::abs(centre.x()) < recipe_.bin.length / 2 &&
+                           std::abs(centre.y()) < recipe_.bin.width / 2 && centre.z() > 0;
+    if (!is_inside) {
+      add(case_name(),
+          fmt::format("tube {}: its centre of mass, ({:.4f}, {:.4f}, {:.4f}) m, is not in the bin", tube.id,
+                      centre.x(), centre.y(), centre.z()));
+    }
+  }
+
+  const fs::path& directory_;
+  const Recipe& recipe_;
+  const CaseRecord& record_;
+  std::vector<Tube> tubes_;
+  std::vector<DatasetFault> faults_;
+};
+
+}  // namespace
+
+std::vector<DatasetFault> faults_of_case(const fs::path& directory, const Recipe& recipe,
+                                         const CaseRecord& record, bool rest) {
+  const Recipe drawn = resolve(recipe, record.drawn);
+  Inspection inspection(directory, drawn, record);
+  inspection.inspect_files();
+  inspection.inspect_heap(rest);
+  return inspection.take_faults();
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,220 @@
+#include "tanglebin/dataset/verify_dataset.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
+#include <unordered_set>
+#include <utility>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/catalogue.hpp"
+#include "tanglebin/dataset/fill_dataset.hpp"
+#include "tanglebin/dataset/finished_cases.hpp"
+#include "tanglebin/dataset/journal.hpp"
+#include "tanglebin/dataset/verify_case.hpp"
+#include "tanglebin/dataset/workers.hpp"
+
+namespace tanglebin {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string name_of(const CaseId& id) {
+  return fmt::format("{}/{}", folder_name(id.set, id.tubes), id.number);
+}
+
+/// One dataset under inspection.
+class Verification {
+public:
+  Verification(const fs::path& directory, const VerifySettings& settings, const RunObserver& observer)
+      : directory_(directory), settings_(settings), observer_(observer) {
+    summary_.recipe = read_recipe(directory / "recipe.toml");
+    for (const CaseId& id : cases(summary_.recipe)) state_.try_emplace(id);
+  }
+
+  VerifySummary run() {
+    check_recipe();
+    read_manifest();
+    read_failures();
+    check_summary();
+    find_journals();
+    find_unlisted_files();
+    check_cases();
+    list_broken_cases();
+    return std::move(summary_);
+  }
+
+private:
+  struct State {
+    bool is_there = false;
+    bool is_broken = false;
+  };
+
+  void add(std::string where, std::string what) {
+    summary_.faults.push_back({std::move(where), std::move(what)});
+  }
+  void add(const CaseId& id, std::string what) {
+    state_[id].is_broken = true;
+    add(name_of(id), std::move(what));
+  }
+
+  void check_recipe() {
+    try {
+      expect_same_recipe(directory_ / "recipe.toml", summary_.recipe);
+    } catch (const InputError& error) {
+      add("recipe.toml", fmt::format("line {} is not as it was written", error.place().line));
+    }
+  }
+
+  void read_manifest() {
+    const fs::path file = directory_ / manifest_name;
+    if (!fs::exists(file)) add(manifest_name, "missing");
+    for_each_whole_line(file, [&](const std::string& line, std::size_t number) {
+      const std::string where = fmt::format("{}:{}", manifest_name, number);
+      try {
+        read_record(case_record(line, where, 0), where);
+      } catch (const InputError& error) {
+        add(where, std::string(error.what()).substr(where.size() + 2));
+      }
+    });
+    summary_.digest = digest_.hex();
+  }
+
+  void read_record(const CaseRecord& record, const std::string& where) {
+    digest_.add(record);
+    ++summary_.cases;
+    const auto found = state_.find(record.id);
+    if (found == state_.end()) {
+      add(where, fmt::format("{} is not a case of the recipe", name_of(record.id)));
+      return;
+    }
+    if (found->second.is_there) add(record.id, fmt::format("is in the manifest twice ({})", where));
+    found->second.is_there = true;
+    for (const FileRecord& file : record.files) {
+      listed_.insert(file.path);
+      if (!file.path.ends_with(".txt")) continue;
+      const auto [other, is_new] = scenes_.try_emplace(file.sha256, record.id);
+      if (!is_new && other->second != record.id) {
+        add(record.id, fmt::format("has the same tubes as {}", name_of(other->second)));
+      }
+    }
+  }
+
+  void read_failures() {
+    const Catalogue catalogue(directory_, Catalogue::Damage::is_passed_over);
+    for (const auto& [id, failed] : catalogue.failed()) {
+      if (const auto found = state_.find(id); found != state_.end() && !found->second.is_there) {
+        add(id, fmt::format("failed: {} (seed {:016x})", failed.reason, failed.seed));
+      }
+    }
+  }
+
+  void check_summary() {
+    constexpr const char* name = "dataset.json";
+    try {
+      const std::optional<DatasetSummary> said = read_dataset_summary(directory_);
+      if (!said) {
+        add(name, "missing");
+      } else if (said->digest != summary_.digest) {
+        add(name, fmt::format("digest: found {}, expected {}, that of the manifest", said->digest,
+                              summary_.digest));
+      } else if (said->cases != summary_.cases || said->recipe_cases != state_.size()) {
+        add(name, fmt::format("found {} of {} cases, expected {} of {}", said->cases, said->recipe_cases,
+                              summary_.cases, state_.size()));
+      }
+    } catch (const InputError& error) {
+      add(name, error.what());
+    }
+  }
+
+  void find_journals() {
+    for (const fs::path& journal : journals_in(directory_)) {
+      add(journal.filename().string(), "a run is under way or was cut off; the same command goes on");
+    }
+  }
+
+  // In the folders of cases; what else lies in the directory is the user's.
+  void find_unlisted_files() {
+    std::set<std::string> folders;
+    for (const auto& [id, state] : state_) folders.insert(folder_name(id.set, id.tubes));
+    for (const std::string& folder : folders) {
+      if (!fs::is_directory(directory_ / folder)) continue;
+      for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory_ / folder)) {
+        const std::string path = fs::relative(entry.path(), directory_).string();
+        if (!entry.is_directory() && !listed_.contains(path)) add(path, "not in the manifest");
+      }
+    }
+  }
+
+  void check_cases() {
+    const Catalogue catalogue(directory_, Catalogue::Damage::is_passed_over);
+    std::vector<CaseId> there;
+    for (const auto& [id, state] : state_) {
+      if (state.is_there) there.push_back(id);
+    }
+    RunProgress progress{.wanted = there.size()};
+    const auto check = [&](std::size_t task) {
+      std::string lines;
+      for (const auto& [where, what] :
+           faults_of_case(directory_, summary_.recipe, catalogue.record(there[task]), settings_.rest)) {
+        lines += fmt::format("{}\t{}\n", where, what);
+      }
+      return lines;
+    };
+    const auto take = [&](const std::vector<TaskResult>& results) {
+      for (const TaskResult& result : results) {
+        take_faults(there[result.task], result.text);
+        ++progress.made;
+        observer_.ended({there[result.task], result.seconds, 0, {}}, progress);
+      }
+    };
+    const auto give_up = [&](const TaskFailure& failure) {
+      add(there[failure.task], "cannot be verified: " + failure.reason);
+      ++progress.failed;
+      observer_.ended({there[failure.task], 0, 0, failure.reason}, progress);
+    };
+    const bool all =
+        run_in_workers(settings_.jobs, there.size(), check,
+                       {.done = take, .failed = give_up, .tick = [&] { observer_.progress(progress); }});
+    summary_.was_stopped = !all;
+  }
+
+  void take_faults(const CaseId& id, const std::string& lines) {
+    std::istringstream in(lines);
+    for (std::string line; std::getline(in, line);) {
+      const std::size_t middle = line.find('\t');
+      add(line.substr(0, middle), line.substr(middle + 1));
+      state_[id].is_broken = true;
+    }
+  }
+
+  void list_broken_cases() {
+    for (const CaseId& id : cases(summary_.recipe)) {
+      const State& state = state_.at(id);
+      if (!state.is_there && !state.is_broken) add(name_of(id), "missing");
+      if (!state.is_there || state.is_broken) summary_.broken.push_back(id);
+    }
+    std::ranges::stable_sort(summary_.faults, {}, &DatasetFault::where);
+  }
+
+  const fs::path& directory_;
+  const VerifySettings& settings_;
+  const RunObserver& observer_;
+  std::map<CaseId, State> state_;           ///< of the recipe's cases
+  std::map<std::string, CaseId> scenes_;    ///< by the checksum of their configurations
+  std::unordered_set<std::string> listed_;  ///< paths in the manifest
+  Digest digest_;
+  VerifySummary summary_;
+};
+
+}  // namespace
+
+VerifySummary verify_dataset(const fs::path& directory, const VerifySettings& settings,
+                             const RunObserver& observer) {
+  return Verification(directory, settings, observer).run();
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,94 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "../support/program.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::ProgramResult;
+using test::run_program;
+using test::TemporaryDirectory;
+using test::write_bytes;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr const char* recipe = R"(
+seed = 3
+[scanner]
+width = 96
+height = 60
+[[set]]
+name = "A"
+tubes = [2]
+cases = 3
+[set.tube]
+radius = 0.0125
+mass = 0.5
+length = 0.5
+bend_max_deg = 30
+)";
+
+class Verify : public testing::Test {
+protected:
+  Verify() { run_program("generate - --out " + path("dataset"), recipe); }
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  ProgramResult verify(const std::string& options = {}) const {
+    return run_program("verify " + path("dataset") + " " + options);
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(Verify, EndsWithZeroWhereNothingIsWrong) {
+  for (const std::string options : {"", "--rest", "--jobs 1", "--repair"}) {
+    const ProgramResult result = verify(options);
+    EXPECT_EQ(result.status, 0) << result.out;
+    EXPECT_THAT(result.out, HasSubstr("dataset: 3 of the recipe's 3 cases, digest "));
+    EXPECT_THAT(result.out, HasSubstr("; nothing is wrong\n"));
+    EXPECT_EQ(result.err, "");
+  }
+}
+
+TEST_F(Verify, EndsWithOneAndAListOtherwiseAndRepairs) {
+  const auto whole = nlohmann::json::parse(verify("--json").out);
+  write_bytes(path("dataset/A2/plys/2.ply"), "ply");
+  std::filesystem::remove(path("dataset/A2/gazebo_worlds/3.world"));
+  const ProgramResult broken = verify();
+  EXPECT_EQ(broken.status, 1);
+  EXPECT_THAT(broken.out, StartsWith("A2/gazebo_worlds/3.world: cannot be opened: No such file or directory\n"
+                                     "A2/plys/2.ply: sha256: found "));
+  EXPECT_THAT(broken.out, HasSubstr("; 2 faults\n"));
+
+  const auto json = nlohmann::json::parse(verify("--json").out);
+  EXPECT_EQ(json["faults"].size(), 2U);
+  EXPECT_EQ(json["faults"][1]["where"], "A2/plys/2.ply");
+
+  const ProgramResult repaired = verify("--repair");
+  EXPECT_EQ(repaired.status, 0) << repaired.out;
+  EXPECT_THAT(repaired.out, HasSubstr("2 cases made again, nothing is wrong\n"));
+  EXPECT_EQ(nlohmann::json::parse(verify("--json").out)["digest"], whole["digest"]);
+}
+
+TEST_F(Verify, SaysAfterARepairWhatIsStillWrong) {
+  write_bytes(path("dataset/A2/plys/77.ply"), "of nobody");
+  const ProgramResult result = verify("--repair");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, StartsWith("A2/plys/77.ply: not in the manifest\n"));
+}
+
+TEST_F(Verify, BadInputIsExitStatusTwo) {
+  EXPECT_EQ(run_program("verify " + path("none")).status, 2);
+  EXPECT_EQ(run_program("verify").status, 64);
+}
+
+TEST_F(Verify, HelpHasAnExample) {
+  EXPECT_THAT(run_program("verify --help").out, HasSubstr("tanglebin verify dataset --repair"));
+}
+
+}  // namespace
+}  // namespace tanglebin

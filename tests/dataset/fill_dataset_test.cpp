@@ -1,0 +1,204 @@
+#include "tanglebin/dataset/fill_dataset.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+
+#include "../support/temporary_directory.hpp"
+#include "small_recipe.hpp"
+#include "tanglebin/base/random.hpp"
+#include "tanglebin/dataset/shard.hpp"
+#include "tanglebin/dataset/workers.hpp"
+#include "tests/support/complaint.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::bytes_of;
+using test::complaint;
+using test::files_below;
+using test::small_recipe;
+using test::TemporaryDirectory;
+using test::write_bytes;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+// Cases that are files with their name in them, instead of scenes.
+MadeCase write_name(const CaseId& id, const CaseWriter& writer) {
+  CaseRecord record{id, 1, 0.5, 0, 0, {}, {}};
+  const std::string path = file_of(id, "plys", "ply");
+  record.files.push_back(writer.write(path, path));
+  return {record, {id, {}, 0}};
+}
+
+FillRequest request_of(const TemporaryDirectory& directory, const std::string& name = {}) {
+  const Recipe recipe = small_recipe();
+  return {.recipe = recipe, .wanted = cases(recipe), .directory = directory.path(), .name = name, .jobs = 2};
+}
+
+FillSummary fill(const TemporaryDirectory& directory, const MakeCase& make = write_name) {
+  return fill_dataset(request_of(directory), make, {});
+}
+
+bool is_case(const CaseId& id, int tubes, int number) {
+  return id.tubes == tubes && id.number == number;
+}
+
+TEST(FillDataset, ACaseThatEndsItsWorkerTwiceIsRecordedAsFailedWithItsSeedAndTheRunGoesOn) {
+  const TemporaryDirectory directory;
+  const FillSummary summary = fill(directory, [](const CaseId& id, const CaseWriter& writer) {
+    if (is_case(id, 1, 2)) std::raise(SIGSEGV);
+    return write_name(id, writer);
+  });
+  EXPECT_EQ(summary.progress.made, 5U);
+  EXPECT_FALSE(summary.is_complete());
+  EXPECT_FALSE(summary.was_stopped());
+  ASSERT_EQ(summary.failed.size(), 1U);
+  EXPECT_EQ(summary.failed[0].seed, attempt_seed(small_recipe().seed, "A", 1, 2, 1));
+  EXPECT_EQ(bytes_of(directory / "failed.jsonl"), to_json(summary.failed[0]) + '\n');
+  EXPECT_THAT(bytes_of(directory / "failed.jsonl"),
+              HasSubstr("\"reason\":\"its worker was ended by signal 11, the second time\""));
+  EXPECT_EQ(summary.dataset.cases, 5U);
+  EXPECT_EQ(summary.dataset.failed, 1U);
+}
+
+TEST(FillDataset, AFailedCaseIsTriedAgainByTheNextRunAndForgottenWhenItIsMade) {
+  const TemporaryDirectory directory;
+  const TemporaryDirectory whole;
+  fill(directory, [](const CaseId& id, const CaseWriter& writer) {
+    if (is_case(id, 3, 1)) std::raise(SIGKILL);
+    return write_name(id, writer);
+  });
+  const FillSummary again = fill(directory);
+  EXPECT_EQ(again.progress.found, 5U);
+  EXPECT_TRUE(again.dataset.is_complete());
+  fill(whole);
+  EXPECT_EQ(files_below(directory.path()), files_below(whole.path()));
+}
+
+TEST(FillDataset, AnImpossibleCaseIsAFailedOneButNotWhereNoneWasMadeBefore) {
+  const auto make_others = [](const CaseId& id, const CaseWriter& writer) {
+    if (is_case(id, 3, 3)) throw TaskImpossible("no valid scene");
+    return write_name(id, writer);
+  };
+  const TemporaryDirectory directory;
+  const FillSummary summary = fill(directory, make_others);
+  ASSERT_EQ(summary.failed.size(), 1U);
+  EXPECT_EQ(summary.failed[0].reason, "no valid scene");
+
+  const TemporaryDirectory hopeless;
+  FillRequest request = request_of(hopeless);
+  request.jobs = 1;
+  EXPECT_EQ(complaint([&] {
+              fill_dataset(
+                  request,
+                  [](const CaseId&, const CaseWriter&) -> MadeCase { throw TaskImpossible("nothing fits"); },
+                  {});
+            }),
+            "A1/1: nothing fits");
+}
+
+TEST(FillDataset, ShardsFillOneDirectoryAtTheSameTime) {
+  const TemporaryDirectory shared;
+  const TemporaryDirectory whole;
+  const TemporaryDirectory marks;
+  fill(whole);
+  const auto fill_shard = [&](int index) {
+    FillRequest request = request_of(shared, name_of(Shard{index, 2}));
+    request.wanted = cases_of({index, 2}, request.wanted);
+    return fill_dataset(request,
+                        [&](const CaseId& id, const CaseWriter& writer) {
+                          // Neither shard ends before both have begun.
+                          write_bytes(marks / std::to_string(index), "");
+                          while (!std::filesystem::exists(marks / std::to_string(3 - index))) usleep(1000);
+                          return write_name(id, writer);
+                        },
+                        {});
+  };
+  const pid_t child = fork();
+  if (child == 0) _exit(fill_shard(2).is_complete() ? 0 : 1);
+  EXPECT_TRUE(fill_shard(1).is_complete());
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(files_below(shared.path()), files_below(whole.path()));
+}
+
+TEST(FillDataset, WhatAKilledShardHasDoneIsTakenOverByAnyOther) {
+  const TemporaryDirectory directory;
+  const TemporaryDirectory whole;
+  fill(whole);
+  const pid_t child = fork();
+  if (child == 0) {
+    FillRequest request = request_of(directory, "1-of-2");
+    request.jobs = 1;
+    fill_dataset(request, write_name, {.ended = [](const CaseEvent&, const RunProgress& run) {
+                   if (run.made == 3) std::raise(SIGKILL);
+                 }});
+  }
+  waitpid(child, nullptr, 0);
+  EXPECT_TRUE(std::filesystem::exists(directory / "journal-1-of-2.jsonl"));
+
+  FillRequest other = request_of(directory, "2-of-2");
+  const FillSummary summary = fill_dataset(other, write_name, {});
+  EXPECT_EQ(summary.progress.found, 3U);
+  EXPECT_EQ(files_below(directory.path()), files_below(whole.path()));
+  EXPECT_FALSE(std::filesystem::exists(directory / ".journal-1-of-2.unfinished"));
+}
+
+TEST(FillDataset, AFinishedDatasetIsNotWrittenAgain) {
+  const TemporaryDirectory directory;
+  fill(directory);
+  const auto written = std::filesystem::last_write_time(directory / "manifest.jsonl");
+  const FillSummary again = fill(directory, [](const CaseId&, const CaseWriter&) -> MadeCase { _exit(1); });
+  EXPECT_EQ(again.progress.found, 6U);
+  EXPECT_TRUE(again.dataset.is_complete());
+  EXPECT_EQ(std::filesystem::last_write_time(directory / "manifest.jsonl"), written);
+}
+
+TEST(FillDataset, TellsOfEveryCaseAndHowFarTheRunIs) {
+  const TemporaryDirectory directory;
+  std::vector<std::string> events;
+  const RunObserver observer{.ended = [&](const CaseEvent& event, const RunProgress& run) {
+    events.push_back(event.failure);
+    EXPECT_EQ(run.made + run.failed, events.size());
+    EXPECT_EQ(run.wanted, 6U);
+  }};
+  fill_dataset(
+      request_of(directory),
+      [](const CaseId& id, const CaseWriter& writer) {
+        if (is_case(id, 3, 1)) throw std::runtime_error("broken");
+        return write_name(id, writer);
+      },
+      observer);
+  EXPECT_THAT(events, SizeIs(6));
+  EXPECT_THAT(events, testing::Contains("broken, the second time").Times(1));
+}
+
+TEST(FillDataset, SaysWhatItWasMadeWithAlsoWhereThatChanged) {
+  const TemporaryDirectory directory;
+  FillRequest request = request_of(directory);
+  request.made_with = {{{"ode", "0.16.2"}}};
+  request.wanted.pop_back();
+  fill_dataset(request, write_name, {});
+  request = request_of(directory);
+  request.made_with = {{{"ode", "0.17"}}};
+  const FillSummary summary = fill_dataset(request, write_name, {});
+  EXPECT_EQ(summary.dataset.made_with, (std::set<Versions>{{{"ode", "0.16.2"}}, {{"ode", "0.17"}}}));
+  EXPECT_EQ(read_dataset_summary(directory.path())->made_with, summary.dataset.made_with);
+}
+
+TEST(FillDataset, ADamagedManifestIsAnErrorThatSaysWhere) {
+  const TemporaryDirectory directory;
+  fill(directory);
+  write_bytes(directory / "manifest.jsonl", "{\"set\":\"A\",\"tubes\":1}\n");
+  EXPECT_THAT(complaint([&] { fill(directory); }), HasSubstr("manifest.jsonl:1: "));
+}
+
+}  // namespace
+}  // namespace tanglebin

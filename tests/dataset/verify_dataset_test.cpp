@@ -1,0 +1,222 @@
+#include "tanglebin/dataset/verify_dataset.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "../support/temporary_directory.hpp"
+#include "small_recipe.hpp"
+#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/dataset/generate_dataset.hpp"
+#include "tanglebin/dataset/repair_dataset.hpp"
+#include "tanglebin/dataset/sha256.hpp"
+
+namespace tanglebin {
+namespace {
+
+namespace fs = std::filesystem;
+using test::bytes_of;
+using test::failed_case_of;
+using test::files_below;
+using test::small_recipe;
+using test::TemporaryDirectory;
+using test::write_bytes;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class VerifyDataset : public testing::Test {
+protected:
+  VerifyDataset() {
+    recipe_.output = {.bin_points = true, .worlds = true, .pcds = true, .depths = true, .labels = true};
+    generate_dataset(recipe_, cases(recipe_), path(), 2);
+    before_ = dataset();
+  }
+
+  fs::path path(const std::string& file = {}) const { return directory_ / file; }
+
+  std::map<std::string, std::string> dataset() const {
+    auto files = files_below(directory_.path());
+    files.erase("times.jsonl");
+    return files;
+  }
+
+  VerifySummary verify(bool rest = false) const {
+    return verify_dataset(directory_.path(), {.jobs = 2, .rest = rest});
+  }
+
+  std::vector<std::string> faults(bool rest = false) const {
+    std::vector<std::string> lines;
+    for (const auto& [where, what] : verify(rest).faults) lines.push_back(where + ": " + what);
+    return lines;
+  }
+
+  void replace_in(const std::string& file, const std::string& from, const std::string& to) const {
+    std::string bytes = bytes_of(path(file));
+    bytes.replace(bytes.find(from), from.size(), to);
+    write_bytes(path(file), bytes);
+  }
+
+  // Other bytes, which the manifest says are right.
+  void forge(const std::string& file, const std::string& bytes) const {
+    const std::string old = bytes_of(path(file));
+    replace_in(
+        "manifest.jsonl",
+        "\"path\":\"" + file + "\",\"bytes\":" + std::to_string(old.size()) + ",\"sha256\":\"" + sha256(old),
+        "\"path\":\"" + file + "\",\"bytes\":" + std::to_string(bytes.size()) + ",\"sha256\":\"" +
+            sha256(bytes));
+    write_bytes(path(file), bytes);
+  }
+
+  void expect_repair() const {
+    EXPECT_THAT(verify().faults, testing::Not(IsEmpty()));
+    repair_dataset(directory_.path(), verify(), 2);
+    EXPECT_EQ(dataset(), before_);
+    EXPECT_THAT(faults(), IsEmpty());
+  }
+
+  TemporaryDirectory directory_;
+  Recipe recipe_ = small_recipe();
+  std::map<std::string, std::string> before_;
+};
+
+TEST_F(VerifyDataset, NothingIsWrongWithWhatGenerateMakes) {
+  const VerifySummary summary = verify(true);
+  EXPECT_THAT(faults(true), IsEmpty());
+  EXPECT_EQ(summary.cases, 6U);
+  EXPECT_THAT(summary.broken, IsEmpty());
+  EXPECT_EQ(dataset(), before_);  // and it is as it was
+}
+
+TEST_F(VerifyDataset, FindsAndRepairsFilesThatAreMissingOrHaveChanged) {
+  fs::remove(path("A1/depths/2.json"));
+  std::string cloud = bytes_of(path("A3/plys/1.ply"));
+  cloud[cloud.size() / 2] = static_cast<char>(cloud[cloud.size() / 2] ^ 1);
+  write_bytes(path("A3/plys/1.ply"), cloud);
+  EXPECT_THAT(faults(), ElementsAre("A1/depths/2.json: cannot be opened: No such file or directory",
+                                    HasSubstr("A3/plys/1.ply: sha256: found " + sha256(cloud))));
+  EXPECT_THAT(verify().broken, ElementsAre(CaseId{"A", 1, 2}, CaseId{"A", 3, 1}));
+  expect_repair();
+}
+
+TEST_F(VerifyDataset, RepairsExactlyTheBrokenCases) {
+  fs::remove(path("A1/plys/2.ply"));
+  const auto untouched = fs::last_write_time(path("A1/plys/3.ply"));
+  EXPECT_EQ(repair_dataset(directory_.path(), verify(), 1).progress.made, 1U);
+  EXPECT_EQ(fs::last_write_time(path("A1/plys/3.ply")), untouched);
+}
+
+TEST_F(VerifyDataset, FindsAndRepairsLinesOfTheManifestThatAreDamagedMissingOrThereTwice) {
+  std::string manifest = bytes_of(path("manifest.jsonl"));
+  const std::size_t second = manifest.find('\n') + 1;
+  manifest[second] = 'x';                                                        // A1/2
+  manifest = manifest.substr(0, manifest.rfind('\n', manifest.size() - 2) + 1);  // without A3/3
+  manifest += manifest.substr(0, second);                                        // A1/1 again
+  write_bytes(path("manifest.jsonl"), manifest);
+  const std::vector<std::string> found = faults();
+  EXPECT_THAT(found, Contains("A1/1: is in the manifest twice (manifest.jsonl:6)"));
+  EXPECT_THAT(found, Contains("A1/2: missing"));
+  EXPECT_THAT(found, Contains("A3/3: missing"));
+  EXPECT_THAT(found, Contains("A3/plys/3.ply: not in the manifest"));
+  EXPECT_THAT(found, Contains(HasSubstr("manifest.jsonl:2: ")));
+  EXPECT_THAT(found, Contains(HasSubstr("dataset.json: digest: found ")));
+  expect_repair();
+}
+
+TEST_F(VerifyDataset, FindsTwoCasesWithTheSameTubes) {
+  forge("A1/tube_configurations/2.txt", bytes_of(path("A1/tube_configurations/1.txt")));
+  EXPECT_THAT(faults(), Contains("A1/2: has the same tubes as A1/1"));
+  expect_repair();
+}
+
+TEST_F(VerifyDataset, FindsFormatsThatAreBrokenThoughTheirChecksumsAreRight) {
+  forge("A1/plys/1.ply", "ply\nformat ascii 1.0\n");
+  forge("A1/tube_configurations/2.txt", "2\n");
+  forge("A1/gazebo_worlds/1.world", "<sdf><world>");
+  forge("A1/pcds/1.pcd", "VERSION 0.7\n");
+  forge("A1/depths/1.png", "no picture");
+  forge("A1/depths/1.json", "{");
+  forge("A1/labels/3.png", bytes_of(path("A1/labels/3.png")).substr(0, 100));
+  std::vector<std::string> where;
+  for (const DatasetFault& fault : verify().faults) where.push_back(fault.where);
+  EXPECT_THAT(
+      where, ElementsAre("A1/depths/1.json", "A1/depths/1.png", "A1/gazebo_worlds/1.world", "A1/labels/3.png",
+                         "A1/pcds/1.pcd", "A1/plys/1.ply", "A1/tube_configurations/2.txt", "dataset.json"));
+  expect_repair();
+}
+
+TEST_F(VerifyDataset, FindsCountsThatAreNotWhatTheManifestAndTheRecipeSay) {
+  forge("A3/plys/1.ply", bytes_of(path("A3/plys/2.ply")));
+  forge("A1/tube_configurations/1.txt", bytes_of(path("A3/tube_configurations/1.txt")));
+  replace_in("manifest.jsonl", R"({"path":"A3/labels/3.png")", R"({"path":"A3/other/3.png")");
+  const std::vector<std::string> found = faults();
+  EXPECT_THAT(found, Contains(testing::ContainsRegex("A3/plys/1.ply: found [0-9]+ points, expected [0-9]+")));
+  EXPECT_THAT(found, Contains("A1/tube_configurations/1.txt: found 3 tubes, expected 1"));
+  EXPECT_THAT(found, Contains("A3/3: has no file in labels"));
+  EXPECT_THAT(found, Contains("A3/labels/3.png: not in the manifest"));
+}
+
+class VerifyPhysics : public VerifyDataset {
+protected:
+  // Puts the case's first tube elsewhere, which everything but the physics says is right.
+  void move_tube(const Eigen::Vector3d& way) const {
+    const std::string file = "A3/tube_configurations/2.txt";
+    std::vector<Tube> tubes = read_configuration(path(file));
+    transform(tubes[0], Eigen::Isometry3d(Eigen::Translation3d(way)));
+    std::ostringstream out;
+    write_configuration(out, tubes);
+    forge(file, out.str());
+  }
+};
+
+TEST_F(VerifyPhysics, FindsATubeInTheFloorAndOneOutsideOfTheBin) {
+  move_tube({0, 0, -0.01});
+  EXPECT_THAT(faults(), Contains(testing::ContainsRegex("A3/2: a tube overlaps the bin by (10\\.|9\\.9)")));
+  move_tube({0, 0, 0.01});
+  move_tube({2, 0, 0});
+  EXPECT_THAT(faults(), Contains(HasSubstr("A3/2: tube 1: its centre of mass, (")));
+}
+
+TEST_F(VerifyPhysics, FindsTubesThatOverlap) {
+  std::vector<Tube> tubes = read_configuration(path("A3/tube_configurations/2.txt"));
+  move_tube(tubes[1].nodes[0].position - tubes[0].nodes[0].position);
+  EXPECT_THAT(faults(), Contains(HasSubstr("A3/2: two tubes overlap by ")));
+}
+
+TEST_F(VerifyPhysics, FindsByResimulationATubeThatHangsInTheAir) {
+  move_tube({0, 0, 0.1});
+  EXPECT_THAT(faults(), testing::Not(Contains(HasSubstr("A3/2: "))));
+  EXPECT_THAT(faults(true), Contains(testing::ContainsRegex("A3/2: no rest: a node moved [0-9.]+ mm")));
+}
+
+TEST_F(VerifyDataset, FindsWhatRunsThatWereCutOffLeft) {
+  write_bytes(path("journal-2-of-3.jsonl"), "");
+  write_bytes(path("A1/plys/99.ply"), "");
+  write_bytes(path("notes.txt"), "of the user");
+  EXPECT_THAT(
+      faults(),
+      ElementsAre("A1/plys/99.ply: not in the manifest",
+                  "journal-2-of-3.jsonl: a run is under way or was cut off; the same command goes on"));
+}
+
+TEST_F(VerifyDataset, FindsCasesThatHaveFailed) {
+  std::string manifest = bytes_of(path("manifest.jsonl"));
+  write_bytes(path("manifest.jsonl"), manifest.substr(manifest.find('\n') + 1));
+  write_bytes(path("failed.jsonl"), to_json(failed_case_of(1, 17, "no luck")) + '\n');
+  EXPECT_THAT(faults(), Contains("A1/1: failed: no luck (seed 0000000000000011)"));
+  expect_repair();
+}
+
+TEST_F(VerifyDataset, FindsARecipeThatWasEdited) {
+  write_bytes(path("recipe.toml"), bytes_of(path("recipe.toml")) + "# mine\n");
+  EXPECT_THAT(faults(),
+              ElementsAre(testing::ContainsRegex("recipe.toml: line [0-9]+ is not as it was written")));
+}
+
+}  // namespace
+}  // namespace tanglebin
