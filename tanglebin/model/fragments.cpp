@@ -94,6 +94,23 @@ std::vector<FragmentEnd> ends_of(const Fragment& fragment, const AxisVotes& vote
   return ends;
 }
 
+// The votes of a surface that is no tube's, a plane or a ball, are spread out.
+bool is_thin(const Skeleton& skeleton, const AxisVotes& votes, double spread_max) {
+  constexpr std::size_t looked_at = 100;
+  const std::size_t stride = skeleton.points.size() / looked_at + 1;
+  std::size_t near = 0;
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < skeleton.points.size(); i += stride) {
+    const Vector3d vote = votes.votes[skeleton.points[i]].cast<double>();
+    ++all;
+    if (std::ranges::any_of(skeleton.nodes,
+                            [&](const Vector3d& node) { return (node - vote).norm() < spread_max; })) {
+      ++near;
+    }
+  }
+  return 2 * near >= all;
+}
+
 double length_of(const Fragment& fragment) {
   double length = 0;
   for (std::size_t node = 1; node < fragment.nodes.size(); ++node) {
@@ -112,6 +129,7 @@ std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool
   for (Skeleton& skeleton :
        find_skeletons(votes.votes, settings.voxel * radius, settings.step * radius, branch_min)) {
     if (skeleton.points.size() < static_cast<std::size_t>(settings.points_min)) continue;
+    if (!is_thin(skeleton, votes, settings.spread_max * radius)) continue;
     Fragment fragment{
         std::move(skeleton.points), std::move(skeleton.nodes), std::move(skeleton.parents), {}, 0};
     fragment.ends = ends_of(fragment, votes, radius, settings);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "../support/complaint.hpp"
 #include "scanned.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/model/paper_method.hpp"
@@ -30,20 +31,21 @@ std::vector<Tube> three_tubes() {
           test::chain(3, 0.0125, {{-0.25, 0.12, 0.0125}, {-0.12, 0.15, 0.0125}, {-0.05, 0.1, 0.0125}})};
 }
 
-Model modelled(const PointCloud& cloud, double ratio = 1) {
-  return model_tubes(cloud, paper_scene(), Method::paper, ratio, 1, "cloud");
-}
-
-std::string complaint(const PointCloud& cloud, const KnownScene& scene, double ratio) {
-  try {
-    model_tubes(cloud, scene, Method::paper, ratio, 1, "cloud.ply");
-  } catch (const InputError& error) {
-    return error.what();
+/// What every method must do.
+class ModelTubes : public testing::TestWithParam<Method> {
+protected:
+  static Model modelled(const PointCloud& cloud, double ratio = 1) {
+    return model_tubes(cloud, paper_scene(), GetParam(), ratio, 1, "cloud");
   }
-  return "";
-}
+  static std::string complaint(const PointCloud& cloud, const KnownScene& scene, double ratio) {
+    return test::complaint([&] { model_tubes(cloud, scene, GetParam(), ratio, 1, "cloud.ply"); });
+  }
+};
 
-TEST(ModelTubes, FindsTheTubesOfAnEasyScene) {
+INSTANTIATE_TEST_SUITE_P(By, ModelTubes, testing::ValuesIn(methods()),
+                         [](const auto& method) { return name_of(method.param); });
+
+TEST_P(ModelTubes, FindsTheTubesOfAnEasyScene) {
   const PointCloud cloud = scanned(three_tubes());
   const Model model = modelled(cloud);
   EXPECT_EQ(model.tubes.size(), 3U);
@@ -54,7 +56,7 @@ TEST(ModelTubes, FindsTheTubesOfAnEasyScene) {
   }
 }
 
-TEST(ModelTubes, FindsThemInAShareOfThePointsAndLabelsTheRest) {
+TEST_P(ModelTubes, FindsThemInAShareOfThePointsAndLabelsTheRest) {
   const PointCloud cloud = scanned(three_tubes());
   const Model model = modelled(cloud, 0.3);
   const auto on_tubes = static_cast<std::size_t>(
@@ -63,7 +65,7 @@ TEST(ModelTubes, FindsThemInAShareOfThePointsAndLabelsTheRest) {
   EXPECT_GT(score(cloud.labels, model.labels).micro_recall, 0.98);
 }
 
-TEST(ModelTubes, SaysWhatEachStepLeft) {
+TEST_P(ModelTubes, SaysWhatEachStepLeft) {
   const Model model = modelled(scanned(three_tubes()), 0.5);
   std::vector<std::string> names;
   for (const Step& step : model.steps) {
@@ -71,22 +73,23 @@ TEST(ModelTubes, SaysWhatEachStepLeft) {
     EXPECT_GE(step.seconds, 0);
     EXPECT_GT(step.count, 0U);
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"filter", "segment", "fit", "join", "label"}));
-  EXPECT_EQ(model.steps[0].count, model.filtered.size());
-  EXPECT_EQ(model.steps[3].count, model.tubes.size());
+  EXPECT_EQ(names, (GetParam() == Method::paper
+                        ? std::vector<std::string>{"filter", "segment", "fit", "join", "label"}
+                        : std::vector<std::string>{"filter", "vote", "fragment", "join", "fit", "label"}));
+  EXPECT_EQ(model.steps.front().count, model.filtered.size());
 }
 
-TEST(ModelTubes, GivesTheSameTwiceAndAnotherForAnotherSeed) {
+TEST_P(ModelTubes, GivesTheSameTwiceAndAnotherForAnotherSeed) {
   const PointCloud cloud = scanned(three_tubes());
   const Model first = modelled(cloud, 0.3);
   const Model again = modelled(cloud, 0.3);
   EXPECT_EQ(first.labels, again.labels);
   EXPECT_EQ(first.filtered, again.filtered);
-  const Model other = model_tubes(cloud, paper_scene(), Method::paper, 0.3, 2, "cloud");
+  const Model other = model_tubes(cloud, paper_scene(), GetParam(), 0.3, 2, "cloud");
   EXPECT_NE(first.filtered, other.filtered);
 }
 
-TEST(ModelTubes, DoesNotLookAtLabelsAndColours) {
+TEST_P(ModelTubes, DoesNotLookAtLabelsAndColours) {
   PointCloud cloud = scanned(three_tubes());
   const Model with = modelled(cloud, 0.3);
   cloud.labels.clear();
@@ -94,7 +97,7 @@ TEST(ModelTubes, DoesNotLookAtLabelsAndColours) {
   EXPECT_EQ(with.labels, modelled(cloud, 0.3).labels);
 }
 
-TEST(ModelTubes, OfAnOrganizedCloudLeavesItsHolesNull) {
+TEST_P(ModelTubes, OfAnOrganizedCloudLeavesItsHolesNull) {
   const KnownScene scene = paper_scene();
   const PointCloud cloud =
       organized_cloud_from_scan(scan(three_tubes(), scene.bin, scene.camera), CloudOf::tubes, 3);
@@ -105,7 +108,7 @@ TEST(ModelTubes, OfAnOrganizedCloudLeavesItsHolesNull) {
   }
 }
 
-TEST(ModelTubes, OfHardlyAnythingIsNothing) {
+TEST_P(ModelTubes, OfHardlyAnythingIsNothing) {
   EXPECT_THAT(modelled({}).tubes, IsEmpty());
   EXPECT_THAT(modelled({}).labels, IsEmpty());
   for (const std::size_t points : {1U, 2U, 3U, 30U}) {
@@ -118,7 +121,7 @@ TEST(ModelTubes, OfHardlyAnythingIsNothing) {
   EXPECT_THAT(modelled(cloud_of(std::vector<Eigen::Vector3f>(50, {nan, nan, nan}))).labels, Each(null_label));
 }
 
-TEST(ModelTubes, OfAnEmptyBinOrAPlaneIsNothing) {
+TEST_P(ModelTubes, OfAnEmptyBinOrAPlaneIsNothing) {
   EXPECT_THAT(modelled(scanned({})).tubes, IsEmpty());
   std::vector<Eigen::Vector3f> plane;
   for (int i = 0; i < 10000; ++i) {
@@ -130,7 +133,7 @@ TEST(ModelTubes, OfAnEmptyBinOrAPlaneIsNothing) {
   EXPECT_THAT(model.labels, Each(null_label));
 }
 
-TEST(ModelTubes, TakesDuplicatePoints) {
+TEST_P(ModelTubes, TakesDuplicatePoints) {
   PointCloud cloud = scanned(three_tubes());
   const std::size_t points = cloud.points.size();
   cloud.points.reserve(2 * points);
@@ -143,14 +146,14 @@ TEST(ModelTubes, TakesDuplicatePoints) {
   EXPECT_EQ(model.labels.size(), 2 * points);
 }
 
-TEST(ModelTubes, SaysThatACloudIsInMillimetres) {
+TEST_P(ModelTubes, SaysThatACloudIsInMillimetres) {
   PointCloud cloud = scanned(three_tubes());
   for (Eigen::Vector3f& point : cloud.points) point *= 1000;
   EXPECT_THAT(complaint(cloud, paper_scene(), 1), HasSubstr("cloud.ply: found points up to"));
   EXPECT_THAT(complaint(cloud, paper_scene(), 1), HasSubstr("millimetres?"));
 }
 
-TEST(ModelTubes, RefusesASceneThatIsNone) {
+TEST_P(ModelTubes, RefusesASceneThatIsNone) {
   KnownScene scene = paper_scene();
   scene.radius = 0;
   EXPECT_THAT(complaint({}, scene, 1), HasSubstr("radius: found 0, expected a positive number"));

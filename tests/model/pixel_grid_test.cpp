@@ -1,0 +1,71 @@
+#include "tanglebin/model/pixel_grid.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tanglebin/base/random.hpp"
+
+namespace tanglebin {
+namespace {
+
+using testing::IsEmpty;
+
+// A camera 2 m above the origin whose pixels are 2 mm wide on the floor.
+Camera small_camera() {
+  return downward_camera(101, 101, 1000, {0, 0, 2});
+}
+
+std::vector<std::uint32_t> indices(std::span<const PixelGrid::Item> run) {
+  std::vector<std::uint32_t> found;
+  for (const PixelGrid::Item& item : run) found.push_back(item.index);
+  return found;
+}
+
+TEST(PixelGrid, FindsPointsByTheirPixels) {
+  const PixelGrid grid({{0, 0, 0}, {0.002F, 0, 0}, {0, -0.002F, 0}, {0, 0, 0.1F}}, small_camera());
+  EXPECT_THAT(indices(grid.run(50, 50, 50)), testing::ElementsAre(0, 3));
+  EXPECT_THAT(indices(grid.run(50, 0, 100)), testing::ElementsAre(0, 3, 1));
+  EXPECT_THAT(indices(grid.run(51, -10, 1000)), testing::ElementsAre(2));
+  EXPECT_THAT(indices(grid.run(52, 0, 100)), IsEmpty());
+  EXPECT_THAT(indices(grid.run(-1, 0, 100)), IsEmpty());
+}
+
+TEST(PixelGrid, LeavesOutWhatTheCameraCannotSee) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const PixelGrid grid({{1, 0, 0}, {0, 0, 3}, {nan, nan, nan}}, small_camera());
+  EXPECT_THAT(grid.items(), IsEmpty());
+  EXPECT_THAT(indices(grid.run(50, 0, 100)), IsEmpty());
+}
+
+TEST(PixelGrid, KnowsHowWideALengthAppears) {
+  const PixelGrid grid({}, small_camera());
+  EXPECT_NEAR(grid.pixels_across(0.01, {0, 0, 0}), 5, 1e-9);
+  EXPECT_NEAR(grid.pixels_across(0.01, {0.03F, 0, 1}), 10, 1e-6);
+}
+
+TEST(PixelGrid, HoldsEveryPointOnceWhereItProjects) {
+  Rng rng(1);
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 1000; ++i) {
+    const auto coordinate = [&] { return static_cast<float>(uniform_real(rng, -0.08, 0.08)); };
+    points.emplace_back(coordinate(), coordinate(), coordinate());
+  }
+  const Camera camera = small_camera();
+  const PixelGrid grid(points, camera);
+  ASSERT_EQ(grid.items().size(), points.size());
+  std::vector<bool> seen(points.size());
+  for (std::size_t item = 0; item < grid.items().size(); ++item) {
+    const auto& [point, index] = grid.items()[item];
+    EXPECT_FALSE(seen[index]);
+    seen[index] = true;
+    EXPECT_EQ(point, points[index]);
+    const Eigen::Vector2d image = *project(camera, point.cast<double>());
+    EXPECT_NEAR(image.x(), grid.pixels()[item].column, 0.5);
+    EXPECT_NEAR(image.y(), grid.pixels()[item].row, 0.5);
+  }
+}
+
+}  // namespace
+}  // namespace tanglebin
