@@ -288,7 +288,8 @@ PointDecoder::PointDecoder(const CloudInput& input, const Element& element, Enco
       nan_(nan) {}
 
 void PointDecoder::reserve(std::size_t bytes) {
-  const std::size_t points = std::min(element_.count, bytes / record_size(element_));
+  const std::size_t points =
+      std::min(element_.count, bytes / std::max<std::size_t>(record_size(element_), 1));
   cloud_.points.reserve(points);
   if (has(Meaning::label)) cloud_.labels.reserve(points);
   if (has_colors()) cloud_.colors.reserve(points);
