@@ -51,12 +51,14 @@ protected:
 };
 
 TEST_F(ExperimentCommand, ModelsEveryCaseAndPrintsTheMeansByMethodAndSet) {
-  const ProgramResult run = experiment("--downsample 0.3,1");
+  const ProgramResult run = experiment("--method paper --method axis --downsample 0.3,1");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.err, "");  // no progress where standard error is no terminal
   EXPECT_THAT(run.out, HasSubstr("mean micro-recall at ratio 0.3\n"));
-  EXPECT_THAT(run.out, testing::ContainsRegex(
-                           "paper, set A: [01]\\.[0-9]+ \\(1 tube\\), [01]\\.[0-9]+ \\(2 tubes\\)\n"));
+  for (const std::string method : {"paper", "axis"}) {
+    EXPECT_THAT(run.out, testing::ContainsRegex(
+                             method + ", set A: [01]\\.[0-9]+ \\(1 tube\\), [01]\\.[0-9]+ \\(2 tubes\\)\n"));
+  }
   EXPECT_THAT(run.out, HasSubstr("results: 4 cases modelled in "));
   for (const char* file : {"experiment.json", "results.jsonl", "times.jsonl", "generation.jsonl",
                            "pictures.jsonl", "pictures/paper-worst-labels.png"}) {

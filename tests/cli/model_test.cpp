@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "../model/scanned.hpp"
 #include "../support/program.hpp"
@@ -54,7 +56,7 @@ protected:
 TEST_F(ModelCommand, WritesThePointsWithLabelsAndTheTubes) {
   const ProgramResult run = model("scan.ply", "--downsample 0.5 --tubes " + path("tubes.txt"));
   ASSERT_EQ(run.status, 0) << run.err;
-  for (const char* step : {"filter", "segment", "fit", "join", "label"})
+  for (const char* step : {"filter", "vote", "fragment", "join", "fit", "label"})
     EXPECT_THAT(run.out, HasSubstr(step));
   const PointCloud labelled = read_cloud(directory_ / "labelled.ply");
   EXPECT_EQ(labelled.points, scan_.points);
@@ -77,7 +79,7 @@ TEST_F(ModelCommand, PrintsItsStepsAsJson) {
   EXPECT_EQ(json.at("tubes"), 2);
   std::vector<std::string> names;
   for (const auto& step : json.at("steps")) names.push_back(step.at("name"));
-  EXPECT_THAT(names, ElementsAre("filter", "segment", "fit", "join", "label"));
+  EXPECT_THAT(names, ElementsAre("filter", "vote", "fragment", "join", "fit", "label"));
 }
 
 TEST_F(ModelCommand, ReadsAPipeAndWritesOne) {
@@ -104,10 +106,16 @@ TEST_F(ModelCommand, KeepsAnOrganizedCloudOrganizedInPcdAndDropsItsHolesInPly) {
 }
 
 TEST_F(ModelCommand, DrawsWhatEachStepLeft) {
-  ASSERT_EQ(model("scan.ply", "--downsample 0.3 --debug-dir " + path("steps")).status, 0);
-  for (const char* name : {"1-filtered", "2-segmented", "3-fitted", "4-joined", "5-labelled"}) {
-    const std::string png = test::bytes_of(directory_ / "steps" / (std::string(name) + ".png"));
-    EXPECT_TRUE(png.starts_with("\x89PNG")) << name;
+  const std::map<std::string, std::vector<std::string>> pictures_of = {
+      {"paper", {"1-filtered", "2-segmented", "3-fitted", "4-joined", "5-labelled"}},
+      {"axis", {"1-filtered", "2-votes", "3-joined", "4-labelled"}}};
+  for (const auto& [method, names] : pictures_of) {
+    ASSERT_EQ(
+        model("scan.ply", "--method " + method + " --downsample 0.3 --debug-dir " + path(method)).status, 0);
+    for (const std::string& name : names) {
+      const std::string png = test::bytes_of(directory_ / method / (name + ".png"));
+      EXPECT_TRUE(png.starts_with("\x89PNG")) << method << " " << name;
+    }
   }
 }
 

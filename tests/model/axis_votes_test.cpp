@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "scanned.hpp"
 #include "tanglebin/tube/capsule.hpp"
@@ -61,7 +62,7 @@ TEST(AxisVotes, OfTubesThatTouchStayADiameterApart) {
   std::vector<Eigen::Vector3f> points = points_of(cloud, 1);
   std::ranges::copy(points_of(cloud, 2), std::back_inserter(points));
   const AxisVotes votes = vote_for_axes(points, paper_scene(), {});
-  EXPECT_GT(count_votes(votes), 0.9 * static_cast<double>(points.size()));
+  EXPECT_GT(count_votes(votes), 0.85 * static_cast<double>(points.size()));
   for (const Eigen::Vector3f& vote : votes.votes) {
     if (!vote.allFinite()) continue;
     EXPECT_LT(distance_from_axes(tubes, vote), 0.004);
