@@ -19,7 +19,7 @@ inline constexpr std::size_t link_features = 6;
 using LinkFeatures = std::array<double, link_features>;
 
 /// The logarithm of the odds of a link is the sum of its features times these. Learned by logistic
-/// regression: docs/algorithm.md says from what, and by which command.
+/// regression: docs/algorithm.md says from what.
 struct LinkWeights {
   LinkFeatures chain_ends;  ///< between two ends of chains
   LinkFeatures tree_ends;   ///< between two ends of trees
