@@ -30,27 +30,25 @@ Neighbourhood neighbourhood(const PixelGrid& grid, std::size_t item, float reach
   const int window = static_cast<int>(std::ceil(grid.pixels_across(reach, point)));
   const float scale = 1 / reach;
   int count = 0;
-  float x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  Vector3f sum = Vector3f::Zero();
+  Vector3f squares = Vector3f::Zero();  // xx, yy, zz
+  Vector3f mixed = Vector3f::Zero();    // yz, zx, xy
   for (int v = row - window; v <= row + window; ++v) {
     for (const PixelGrid::Item& neighbour : grid.run(v, column - window, column + window)) {
       const Vector3f d = (neighbour.point - point) * scale;
       if (d.squaredNorm() > 1) continue;
       ++count;
-      x += d.x();
-      y += d.y();
-      z += d.z();
-      xx += d.x() * d.x();
-      xy += d.x() * d.y();
-      xz += d.x() * d.z();
-      yy += d.y() * d.y();
-      yz += d.y() * d.z();
-      zz += d.z() * d.z();
+      sum += d;
+      squares += d.cwiseProduct(d);
+      mixed += Vector3f(d.y() * d.z(), d.z() * d.x(), d.x() * d.y());
     }
   }
   const auto n = static_cast<float>(count);  // at least 1, the point itself
-  const Vector3f mean = Vector3f(x, y, z) / n;
-  Matrix3f products;
-  products << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  const Vector3f mean = sum / n;
+  Matrix3f products = squares.asDiagonal();
+  products(1, 2) = products(2, 1) = mixed.x();
+  products(2, 0) = products(0, 2) = mixed.y();
+  products(0, 1) = products(1, 0) = mixed.z();
   return {count, mean, products / n - mean * mean.transpose()};
 }
 

@@ -155,7 +155,7 @@ private:
         members.push_back(neighbour);
       }
     }
-    skeleton.nodes.push_back(sum / static_cast<double>(count));
+    skeleton.nodes.emplace_back(sum / static_cast<double>(count));
     skeleton.parents.push_back(parent == none ? 0 : parent);
   }
 

@@ -92,43 +92,68 @@ void mark_needed(const std::vector<Vector3d>& nodes, const std::vector<std::size
   mark_needed(nodes, path, at, last, tolerance, needed);
 }
 
-// Fewer nodes: ends and junctions, which come first, and the bends between them.
-Line simplified(const Line& line, double tolerance) {
-  const auto neighbours = neighbours_in(line);
-  const auto is_named = [&](std::size_t node) { return neighbours[node].size() != 2; };
-  std::vector<bool> needed(line.nodes.size());
-  std::vector<std::vector<std::size_t>> paths;
-  for (std::size_t start = 0; start < line.nodes.size(); ++start) {
-    if (!is_named(start)) continue;
-    needed[start] = true;
-    for (const std::size_t next : neighbours[start]) {
-      std::vector<std::size_t> path{start, next};
-      while (!is_named(path.back())) {
-        const auto& around = neighbours[path.back()];
-        path.push_back(around[0] == path[path.size() - 2] ? around[1] : around[0]);
-      }
-      if (path.back() < start) continue;  // walked before, from its other end
-      mark_needed(line.nodes, path, 0, path.size() - 1, tolerance, needed);
-      paths.push_back(std::move(path));
+/// The nodes of a line by what they are: ends and junctions are named, the others lie on paths between these.
+class Paths {
+public:
+  explicit Paths(const Line& line) : neighbours_(neighbours_in(line)) {
+    for (std::size_t start = 0; start < neighbours_.size(); ++start) {
+      if (is_named(start)) add_paths_from(start);
     }
   }
 
-  Line result;
-  std::vector<std::size_t> new_index(line.nodes.size(), none);
-  for (const bool named : {true, false}) {
-    for (std::size_t node = 0; node < line.nodes.size(); ++node) {
-      if (!needed[node] || is_named(node) != named) continue;
-      new_index[node] = result.nodes.size();
-      result.nodes.push_back(line.nodes[node]);
+  bool is_named(std::size_t node) const { return neighbours_[node].size() != 2; }
+  const std::vector<std::vector<std::size_t>>& all() const { return paths_; }
+
+private:
+  // Those that end at a later node: the others are known from their other end.
+  void add_paths_from(std::size_t start) {
+    for (const std::size_t next : neighbours_[start]) {
+      std::vector<std::size_t> path{start, next};
+      while (!is_named(path.back())) path.push_back(after(path));
+      if (path.back() > start) paths_.push_back(std::move(path));
     }
   }
-  for (const std::vector<std::size_t>& path : paths) {
-    std::size_t last = path.front();
-    for (const std::size_t node : path) {
-      if (node == path.front() || !needed[node]) continue;
-      if (!is_named(node) && (line.nodes[node] - line.nodes[last]).norm() < tolerance) continue;
-      result.edges.push_back({new_index[last], new_index[node]});
-      last = node;
+
+  std::size_t after(const std::vector<std::size_t>& path) const {
+    const auto& around = neighbours_[path.back()];
+    return around[0] == path[path.size() - 2] ? around[1] : around[0];
+  }
+
+  std::vector<std::vector<std::size_t>> neighbours_;
+  std::vector<std::vector<std::size_t>> paths_;
+};
+
+// The nodes of a path that are needed, without those that nearly coincide.
+std::vector<std::size_t> needed_nodes(const Line& line, const std::vector<std::size_t>& path,
+                                      double tolerance) {
+  std::vector<bool> needed(line.nodes.size());
+  mark_needed(line.nodes, path, 0, path.size() - 1, tolerance, needed);
+  std::vector<std::size_t> kept{path.front()};
+  for (const std::size_t node : path) {
+    if (needed[node] && (line.nodes[node] - line.nodes[kept.back()]).norm() >= tolerance)
+      kept.push_back(node);
+  }
+  kept.push_back(path.back());
+  return kept;
+}
+
+// Fewer nodes: ends and junctions, which come first, and the bends between them.
+Line simplified(const Line& line, double tolerance) {
+  const Paths paths(line);
+  Line result;
+  std::vector<std::size_t> new_index(line.nodes.size(), none);
+  const auto add = [&](std::size_t node) {
+    new_index[node] = result.nodes.size();
+    result.nodes.push_back(line.nodes[node]);
+  };
+  for (std::size_t node = 0; node < line.nodes.size(); ++node) {
+    if (paths.is_named(node)) add(node);
+  }
+  for (const std::vector<std::size_t>& path : paths.all()) {
+    const std::vector<std::size_t> kept = needed_nodes(line, path, tolerance);
+    for (std::size_t i = 1; i < kept.size(); ++i) {
+      if (i + 1 < kept.size()) add(kept[i]);
+      result.edges.push_back({new_index[kept[i - 1]], new_index[kept[i]]});
     }
   }
   return result;
@@ -198,7 +223,7 @@ std::vector<Vector3d> some_points(const std::vector<Fragment>& fragments,
   const std::size_t stride = all.size() / points_max + 1;
   std::vector<Vector3d> some;
   some.reserve(points_max);
-  for (std::size_t i = 0; i < all.size(); i += stride) some.push_back(points[all[i]].cast<double>());
+  for (std::size_t i = 0; i < all.size(); i += stride) some.emplace_back(points[all[i]].cast<double>());
   return some;
 }
 
