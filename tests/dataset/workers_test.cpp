@@ -103,14 +103,14 @@ TEST(Workers, ATaskThatEndsItsWorkerTwiceIsGivenUpAndTheOthersAreDone) {
   const bool all = run_in_workers(
       2, 100,
       [](std::size_t task) {
-        if (task % 40 == 3) kill(getpid(), SIGSEGV);
+        if (task % 40 == 3) kill(getpid(), SIGABRT);
         if (task == 50) _exit(7);
         return std::string("done");
       },
       heard.observer());
   EXPECT_TRUE(all);
   EXPECT_EQ(heard.done.size(), 96U);
-  const std::string reason = "its worker was ended by signal 11, the second time";
+  const std::string reason = "its worker was ended by signal 6, the second time";
   EXPECT_EQ(
       heard.failed,
       (std::map<std::size_t, std::string>{
