@@ -4,6 +4,7 @@
 #include <map>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/picked.hpp"
 #include "tanglebin/base/random.hpp"
 #include "tanglebin/score/score_clouds.hpp"
 
@@ -34,14 +35,6 @@ KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
           .radius = spec.radius,
           .length = length,
           .junctions = junctions(spec)};
-}
-
-template <typename Value>
-std::vector<Value> picked(const std::vector<Value>& all, const std::vector<std::size_t>& indices) {
-  std::vector<Value> result;
-  result.reserve(indices.size());
-  for (const std::size_t i : indices) result.push_back(all[i]);
-  return result;
 }
 
 PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int32_t> labels) {

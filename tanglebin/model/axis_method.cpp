@@ -4,19 +4,12 @@
 #include <iterator>
 #include <utility>
 
+#include "tanglebin/base/picked.hpp"
 #include "tanglebin/model/range_image.hpp"
 #include "tanglebin/model/step_clock.hpp"
 
 namespace tanglebin {
 namespace {
-
-std::vector<Eigen::Vector3f> picked(const std::vector<Eigen::Vector3f>& points,
-                                    const std::vector<std::size_t>& indices) {
-  std::vector<Eigen::Vector3f> result;
-  result.reserve(indices.size());
-  for (const std::size_t i : indices) result.push_back(points[i]);
-  return result;
-}
 
 // The points of the fragments of each tube are that tube's.
 std::vector<std::int32_t> claimed_points(std::size_t points, const AxisModel& found,

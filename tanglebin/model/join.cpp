@@ -6,6 +6,8 @@
 #include <optional>
 #include <tuple>
 
+#include "tanglebin/model/angle.hpp"
+
 namespace tanglebin {
 namespace {
 
@@ -15,10 +17,6 @@ double length_of(const Cylinder& cylinder) {
 
 Eigen::Vector3d outward(const Cylinder& cylinder, std::size_t end) {
   return (cylinder.ends[end] - cylinder.ends[1 - end]).normalized();
-}
-
-double angle_between(const Eigen::Vector3d& first, const Eigen::Vector3d& second) {
-  return std::atan2(first.cross(second).norm(), first.dot(second));
 }
 
 // Every pair of ends of distinct cylinders under both thresholds, cheapest first.

@@ -8,16 +8,13 @@
 #include <optional>
 #include <utility>
 
+#include "tanglebin/model/angle.hpp"
 #include "tanglebin/model/matching.hpp"
 
 namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
-
-double angle_between(const Vector3d& first, const Vector3d& second) {
-  return std::atan2(first.cross(second).norm(), first.dot(second));
-}
 
 constexpr double shortest = 0.002;  // m
 

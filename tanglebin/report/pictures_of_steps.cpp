@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "tanglebin/base/picked.hpp"
 #include "tanglebin/report/picture.hpp"
 
 namespace tanglebin {
@@ -79,10 +80,8 @@ std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const AxisM
   std::vector<NamedPicture> pictures;
   if (steps.fragments.empty()) return pictures;
   const View view = nearly_from_above();
-  std::vector<Eigen::Vector3f> filtered;
-  filtered.reserve(steps.model.filtered.size());
-  for (const std::size_t point : steps.model.filtered) filtered.push_back(cloud.points[point]);
-  pictures.push_back({"1-filtered", picture_of_cloud(cloud_of(filtered), view, name)});
+  pictures.push_back(
+      {"1-filtered", picture_of_cloud(cloud_of(picked(cloud.points, steps.model.filtered)), view, name)});
   pictures.push_back({"2-votes", picture_of_cloud(fragments_of(steps), view, name)});
   pictures.push_back({"3-joined", picture_of_tubes(steps.model.tubes, bin, view, name)});
   pictures.push_back({"4-labelled", picture_of_cloud(labelled_of(cloud, steps.model), view, name)});
