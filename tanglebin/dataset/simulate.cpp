@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -44,23 +43,6 @@ std::vector<Tube> draw_tubes(Rng& rng, const TubeSpec& spec, int count, const Bi
   for (int id = 1; id <= count; ++id) tubes.push_back(draw_tube(rng, spec, id));
   spawn(rng, tubes, bin);
   return tubes;
-}
-
-// Adding zero turns a negative zero into a positive one.
-double to_billionth(double value) {
-  return std::round(value * 1e9) / 1e9 + 0.0;
-}
-
-void round_to_nanometres(std::vector<Tube>& tubes) {
-  const auto round_vector = [](auto&& vector) { vector = vector.unaryExpr(&to_billionth).eval(); };
-  for (Tube& tube : tubes) {
-    for (Node& node : tube.nodes) round_vector(node.position);
-    for (Edge& edge : tube.edges) {
-      round_vector(edge.centre);
-      round_vector(edge.rotation.coeffs());
-      edge.length = to_billionth(edge.length);
-    }
-  }
 }
 
 // The noise of each scanner follows from the scene's seed and the scanner's name.
@@ -112,7 +94,6 @@ Scene simulate(const Recipe& recipe, const CaseId& id) {
       rejections.push_back({seed, heap.simulated, heap.fault});
       continue;
     }
-    round_to_nanometres(heap.tubes);
     std::vector<Scan> scans = [&] {
       const Stopwatch watch(times.scan);
       return scan_with_all(recipe, heap.tubes, seed);

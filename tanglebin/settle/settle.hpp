@@ -27,7 +27,7 @@ struct SettleSettings {
   double calm_damping = 0.03;     ///< ... this share of all speeds, lost in each step
   double rest_speed = 0.02;       ///< m/s: a heap all of whose nodes are slower ...
   double rest_time = 0.05;        ///< ... for so many s may be at rest, and is tested
-  double proof_time = 0.25;       ///< s, the test: undamped, ...
+  double proof_time = 0.25;       ///< s, the test: laid down without speed and let go, undamped, ...
   double proof_motion = 0.001;    ///< ... no node may be more than so many m from where it began
   double overlap_max = 0.0003;    ///< m, of a tube with another or with the bin
   double time_limit = 10.0;       ///< s, simulated, after which a heap is given up
@@ -35,24 +35,23 @@ struct SettleSettings {
 
 /// A heap as it came out of the simulation.
 struct Settled {
-  std::vector<Tube> tubes;       ///< where they lie at the end
-  double simulated = 0.0;        ///< s
+  std::vector<Tube> tubes;       ///< where they lie at the end, in whole nanometres as the files hold them
+  double simulated = 0.0;        ///< s, how long they took, without the tests of rest
   double largest_overlap = 0.0;  ///< m, at the end, of a tube with another or with the bin
   std::string fault;             ///< why the heap is not valid; empty where it is
 };
 
 /// Drops `tubes`, which must not overlap, into the bin and integrates until they rest, one has left the bin,
-/// or the time is up. A heap is valid when no node moves more than proof_motion in proof_time without
-/// damping, no overlap exceeds overlap_max and every centre of mass is between the walls (a full bin's heap
-/// may rise over the rim). Bodies are never put to sleep. The same arguments give the same heap. ODE's random
-/// generator is one for the process: one call at a time. Throws InputError for a tube without mass.
+/// or the time is up. They rest, and the heap is valid, when fault_of_heap() finds nothing. Bodies are never
+/// put to sleep. The same arguments give the same heap. ODE's random generator is one for the process: one
+/// call at a time. Throws InputError for a tube without mass.
 Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings,
                std::uint64_t seed);
 
-/// Lays tubes, whose masses are known, where they are and without speed into the bin, and says by what they
-/// are no valid heap; empty where they are one: settle()'s test of rest, but for a node that may move four
-/// times proof_motion. A heap that settle() lets pass may still swing by proof_motion about where it came to
-/// rest, and begins this time at an end of its swing; one that topples moves ten times as far.
+/// Says by what tubes, whose masses are known, are no valid heap; empty where they are one: no overlap
+/// exceeds overlap_max, every centre of mass is between the walls (a full bin's heap may rise over the rim),
+/// and when they are laid into the bin where they are, without speed, no node moves more than proof_motion in
+/// proof_time without damping, the solver making iterations_max iterations.
 std::string fault_of_heap(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings);
 
 /// Throws InputError naming the field under `settle` that is out of range.

@@ -86,6 +86,7 @@ struct World::Implementation {
   dSpaceID space;
   dJointGroupID contacts;
   std::vector<Body> bodies;
+  unsigned long random;  // what ODE's one random generator is at, each time this world makes a step
   int steps = 0;
 
   void add_tube(const Tube& tube);
@@ -148,9 +149,9 @@ World::World(const std::vector<Tube>& tubes, const Bin& bin, const SettleSetting
     : implementation_(std::make_unique<Implementation>()) {
   for (const Tube& tube : tubes) require_mass(tube);
   initialize_ode_once();
-  dRandSetSeed(static_cast<unsigned long>(seed & 0xffffffffU));
   Implementation& self = *implementation_;
   self.settings = settings;
+  self.random = static_cast<unsigned long>(seed & 0xffffffffU);
   self.bin_friction = bin.friction;
   self.world = dWorldCreate();
   self.space = dSimpleSpaceCreate(nullptr);
@@ -177,7 +178,9 @@ void World::step(const StepSettings& how) {
   for (const Body& body : self.bodies) dBodySetDamping(body.id, how.damping, how.damping);
   dSpaceCollide(self.space, &self,
                 [](void* data, dGeomID a, dGeomID b) { static_cast<Implementation*>(data)->touch(a, b); });
+  dRandSetSeed(self.random);
   dWorldQuickStep(self.world, self.settings.step);
+  self.random = dRandGetSeed();
   dJointGroupEmpty(self.contacts);
   ++self.steps;
 }

@@ -1,6 +1,16 @@
 #include "tanglebin/tube/tube.hpp"
 
+#include <cmath>
+
 namespace tanglebin {
+namespace {
+
+// Adding zero turns a negative zero into a positive one.
+double to_billionth(double value) {
+  return std::round(value * 1e9) / 1e9 + 0.0;
+}
+
+}  // namespace
 
 Capsule capsule(const Tube& tube, const Edge& edge) {
   return {tube.nodes[edge.from].position, tube.nodes[edge.to].position, tube.radius};
@@ -33,6 +43,16 @@ void transform(Tube& tube, const Eigen::Isometry3d& motion) {
   for (Edge& edge : tube.edges) {
     edge.centre = motion * edge.centre;
     edge.rotation = (rotation * edge.rotation).normalized();
+  }
+}
+
+void round_to_nanometres(Tube& tube) {
+  const auto round_vector = [](auto&& vector) { vector = vector.unaryExpr(&to_billionth).eval(); };
+  for (Node& node : tube.nodes) round_vector(node.position);
+  for (Edge& edge : tube.edges) {
+    round_vector(edge.centre);
+    round_vector(edge.rotation.coeffs());
+    edge.length = to_billionth(edge.length);
   }
 }
 

@@ -49,4 +49,7 @@ Eigen::AlignedBox3d bounds(const Tube& tube);
 /// Moves the tube as a rigid body.
 void transform(Tube& tube, const Eigen::Isometry3d& motion);
 
+/// Rounds positions, lengths and rotations to what the text format holds: nine decimals.
+void round_to_nanometres(Tube& tube);
+
 }  // namespace tanglebin

@@ -76,7 +76,7 @@ protected:
 TEST_F(StoredDigest, OfChainsWithEveryFormat) {
   Recipe recipe = small_recipe();
   recipe.output = {.bin_points = true, .worlds = true, .pcds = true, .depths = true, .labels = true};
-  EXPECT_EQ(digest_of(recipe), "569c9eb0eaaf16bd74dcacf7ab86a04db625dba683af7f1592b93c71a45e7004");
+  EXPECT_EQ(digest_of(recipe), "95dcff9adaddf9618ff86eeb985aa2fddd1334dbcde1f3f56ec34199d41bb857");
 }
 
 TEST_F(StoredDigest, OfTrees) {
@@ -84,7 +84,7 @@ TEST_F(StoredDigest, OfTrees) {
   recipe.camera = small_recipe().camera;
   recipe.sets[0].tubes = {2};
   recipe.sets[0].cases = 2;
-  EXPECT_EQ(digest_of(recipe), "e70c357740523e9c4b43f458a99736bae49692ac970ea6584866c55590740527");
+  EXPECT_EQ(digest_of(recipe), "46d6123b201343b0ff37f4cab18e63d15b271baaeff22e183c4e9f74615ff44c");
 }
 
 TEST_F(StoredDigest, OfAHeapInTheFullPicture) {
@@ -93,7 +93,7 @@ TEST_F(StoredDigest, OfAHeapInTheFullPicture) {
     set.tubes = {10};
     set.cases = 1;
   }
-  EXPECT_EQ(digest_of(recipe), "52a0899861eecbaf05aebf8410be2e67d8a530d80a6fa7df9e0be87e4ae021db");
+  EXPECT_EQ(digest_of(recipe), "9ee715451ea4c26c54ed4085e924ba23b6b2cff791105994ed3518d3055c8c11");
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ Vector3d middle(const Tube& tube) {
 void expect_valid(const Settled& heap, const Bin& bin, const SettleSettings& settings = {}) {
   EXPECT_EQ(heap.fault, "");
   EXPECT_GT(heap.simulated, 0);
-  EXPECT_LE(heap.simulated, settings.time_limit + settings.proof_time + settings.step);
+  EXPECT_LE(heap.simulated, settings.time_limit + settings.step);
   EXPECT_LE(heap.largest_overlap, settings.overlap_max);
   const double sampled = std::max(sampled_tube_overlap(heap.tubes), sampled_bin_overlap(heap.tubes, bin));
   EXPECT_LE(sampled, heap.largest_overlap + 1e-9);
@@ -166,17 +166,18 @@ TEST(Settle, HeapsOfThePapersSetsAreValidAndRest) {
         if (!heap.fault.empty()) continue;
         ++valid;
         expect_valid(heap, bin);
+        EXPECT_EQ(fault_of_heap(heap.tubes, bin, settings), "");
         const double motion = motion_from_rest(heap.tubes, bin, settings);
         EXPECT_LT(motion, 0.02);
         if (motion > settings.proof_motion) ++moved_on;
       }
     }
   }
-  // Some are given up: a tube has bounced out or rocks on. Measured: 13 of 298.
+  // Some are given up: a tube has bounced out or rocks on. Measured: 12 of 320.
   EXPECT_GE(valid, attempts * 3 / 4);
-  // With the solver's rows in another order a few slip once more. Measured: 10 of 285 by more than the
-  // proof's millimetre, one of them by 9 mm.
-  EXPECT_LE(moved_on, valid / 5);
+  // With the solver's rows in another order a few slip once more. Measured: 2 of 308 by more than the
+  // proof's millimetre, one of them by 7 mm.
+  EXPECT_LE(moved_on, 1);
 }
 
 TEST(Settle, SixtyTubesFindRestInThePublishedBin) {
@@ -215,7 +216,15 @@ TEST(Settle, AHeapThatHasNoTimeIsGivenUpAsUnrested) {
 TEST(Settle, AHeapThatFailsTheProofSaysHowFarItMoved) {
   const SettleSettings settings = {.proof_motion = 1e-12, .time_limit = 3};
   const Settled heap = settle(spawned_tubes(6, 1, 30, Bin{}), Bin{}, settings, 1);
-  EXPECT_THAT(heap.fault, MatchesRegex("no rest: a node moved [0-9]+\\.[0-9][0-9] mm in 0.25 s"));
+  EXPECT_THAT(heap.fault, MatchesRegex("no rest: a node moved [0-9]+\\.[0-9][0-9] mm in 0\\.[0-9]+ s"));
+}
+
+TEST(FaultOfHeap, ATubeThatTopplesWhenItIsLetGoIsNotAtRest) {
+  const double height = Bin{}.height;
+  const Tube leaning = straight_tube({0, 0, 0.0124}, {0.02, 0, height}, 1);
+  EXPECT_THAT(fault_of_heap({leaning}, Bin{}, SettleSettings{}), StartsWith("no rest: a node moved 1."));
+  const Tube lying = straight_tube({-0.2, 0, 0.0124}, {0.2, 0, 0.0124}, 1);
+  EXPECT_EQ(fault_of_heap({lying}, Bin{}, SettleSettings{}), "");
 }
 
 TEST(Settle, ATubeOutsideTheWallsHasLeftTheBin) {

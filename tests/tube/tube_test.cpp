@@ -80,5 +80,22 @@ RC_GTEST_PROP(Transform, IsUndoneByItsInverse, ()) {
   }
 }
 
+RC_GTEST_PROP(RoundToNanometres, MovesNothingByMoreThanHalfAndHasNothingLeftToDo, ()) {
+  const Tube before = any_tree();
+  Tube once = before;
+  round_to_nanometres(once);
+  Tube twice = once;
+  round_to_nanometres(twice);
+  for (std::size_t i = 0; i < before.nodes.size(); ++i) {
+    const Vector3d shift = once.nodes[i].position - before.nodes[i].position;
+    RC_ASSERT(shift.cwiseAbs().maxCoeff() < 0.5e-9 + 1e-15);
+    RC_ASSERT(twice.nodes[i].position == once.nodes[i].position);
+  }
+  for (std::size_t i = 0; i < before.edges.size(); ++i) {
+    RC_ASSERT(twice.edges[i].rotation.coeffs() == once.edges[i].rotation.coeffs());
+    RC_ASSERT(std::abs(once.edges[i].length - before.edges[i].length) < 0.5e-9 + 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace tanglebin
