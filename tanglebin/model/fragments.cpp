@@ -2,8 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "tanglebin/model/skeleton.hpp"
@@ -96,19 +98,21 @@ std::vector<FragmentEnd> ends_of(const Fragment& fragment, const AxisVotes& vote
 
 // The votes of a surface that is no tube's, a plane or a ball, are spread out.
 bool is_thin(const Skeleton& skeleton, const AxisVotes& votes, double spread_max) {
-  constexpr std::size_t looked_at = 100;
-  const std::size_t stride = skeleton.points.size() / looked_at + 1;
-  std::size_t near = 0;
-  std::size_t all = 0;
-  for (std::size_t i = 0; i < skeleton.points.size(); i += stride) {
-    const Vector3d vote = votes.votes[skeleton.points[i]].cast<double>();
-    ++all;
+  // Some votes all over the fragment: multiples of the golden ratio, which no regular order of points
+  // repeats.
+  constexpr int looked_at = 100;
+  int near = 0;
+  for (int i = 0; i < looked_at; ++i) {
+    double whole = 0;
+    const double share = std::modf(i * std::numbers::phi, &whole);
+    const auto place = static_cast<std::size_t>(share * static_cast<double>(skeleton.points.size()));
+    const Vector3d vote = votes.votes[skeleton.points[place]].cast<double>();
     if (std::ranges::any_of(skeleton.nodes,
                             [&](const Vector3d& node) { return (node - vote).norm() < spread_max; })) {
       ++near;
     }
   }
-  return 2 * near >= all;
+  return 2 * near >= looked_at;
 }
 
 double length_of(const Fragment& fragment) {

@@ -9,23 +9,21 @@
 namespace tanglebin {
 namespace {
 
-/// A point and where it belongs.
+// Floats that readers of a run may read behind its last point.
+constexpr std::size_t read_behind = 3;
+
+/// A point by its index, and where it belongs.
 struct Seen {
-  PixelGrid::Pixel pixel;
-  PixelGrid::Item item;
+  PixelPosition pixel;
+  std::uint32_t index;
 };
 
 std::vector<Seen> seen_points(const std::vector<Eigen::Vector3f>& points, const Camera& camera) {
   std::vector<Seen> seen;
   seen.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::optional<Eigen::Vector2d> image = project(camera, points[i].cast<double>());
-    if (!image) continue;
-    const Eigen::Vector2d pixel = image->array().round();
-    if (!(pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < camera.width && pixel.y() < camera.height))
-      continue;
-    seen.push_back({{static_cast<int>(pixel.x()), static_cast<int>(pixel.y())},
-                    {points[i], static_cast<std::uint32_t>(i)}});
+    const std::optional<PixelPosition> pixel = pixel_of(camera, points[i].cast<double>());
+    if (pixel) seen.push_back({*pixel, static_cast<std::uint32_t>(i)});
   }
   return seen;
 }
@@ -35,7 +33,7 @@ std::vector<Seen> seen_points(const std::vector<Eigen::Vector3f>& points, const 
 PixelGrid::PixelGrid(const std::vector<Eigen::Vector3f>& points, const Camera& camera) : camera_(camera) {
   const std::vector<Seen> seen = seen_points(points, camera);
   Eigen::AlignedBox2i part;
-  for (const auto& [pixel, item] : seen) part.extend(Eigen::Vector2i(pixel.column, pixel.row));
+  for (const auto& [pixel, index] : seen) part.extend(Eigen::Vector2i(pixel.column, pixel.row));
   if (!part.isEmpty()) {
     left_ = part.min().x();
     top_ = part.min().y();
@@ -45,33 +43,36 @@ PixelGrid::PixelGrid(const std::vector<Eigen::Vector3f>& points, const Camera& c
 
   // Counting sort.
   starts_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) + 1);
-  for (const auto& [pixel, item] : seen) ++starts_[position_of(pixel) + 1];
+  for (const auto& [pixel, index] : seen) ++starts_[position_of(pixel) + 1];
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   std::vector<std::uint32_t> next = starts_;
-  items_.resize(seen.size());
+  for (std::vector<float>* coordinate : {&x_, &y_, &z_}) coordinate->resize(seen.size() + read_behind);
+  indices_.resize(seen.size());
   pixels_.resize(seen.size());
-  for (const auto& [pixel, item] : seen) {
+  for (const auto& [pixel, index] : seen) {
     const std::uint32_t place = next[position_of(pixel)]++;
-    items_[place] = item;
+    x_[place] = points[index].x();
+    y_[place] = points[index].y();
+    z_[place] = points[index].z();
+    indices_[place] = index;
     pixels_[place] = pixel;
   }
 }
 
-std::span<const PixelGrid::Item> PixelGrid::run(int row, int first, int last) const {
+PixelGrid::Run PixelGrid::run(int row, int first, int last) const {
   first = std::max(first, left_);
   last = std::min(last, left_ + width_ - 1);
   if (row < top_ || row >= top_ + height_ || first > last) return {};
   const std::uint32_t begin = starts_[position_of({first, row})];
   const std::uint32_t end = starts_[position_of({last, row}) + 1];
-  return std::span(items_).subspan(begin, end - begin);
+  return {x_.data() + begin, y_.data() + begin, z_.data() + begin, static_cast<int>(end - begin)};
 }
 
 double PixelGrid::pixels_across(double length, const Eigen::Vector3f& point) const {
-  const double depth = camera_.pose.linear().col(2).dot(point.cast<double>() - camera_.pose.translation());
-  return length * std::max(camera_.fx, camera_.fy) / depth;
+  return length * std::max(camera_.fx, camera_.fy) / depth_of(camera_, point.cast<double>());
 }
 
-std::size_t PixelGrid::position_of(const Pixel& pixel) const {
+std::size_t PixelGrid::position_of(const PixelPosition& pixel) const {
   return static_cast<std::size_t>(pixel.row - top_) * static_cast<std::size_t>(width_) +
          static_cast<std::size_t>(pixel.column - left_);
 }

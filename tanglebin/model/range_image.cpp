@@ -7,27 +7,16 @@
 #include <optional>
 
 namespace tanglebin {
-namespace {
-
-// Along the camera's z axis.
-double depth_of(const Camera& camera, const Eigen::Vector3d& point) {
-  return camera.pose.linear().col(2).dot(point - camera.pose.translation());
-}
-
-}  // namespace
-
 RangeImage::RangeImage(const PointCloud& cloud, const Camera& camera)
     : camera_(camera),
       depths_(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
               std::numeric_limits<float>::infinity()) {
   for (const Eigen::Vector3f& point : cloud.points) {
     if (!point.allFinite()) continue;
-    const std::optional<Eigen::Vector2d> image = project(camera, point.cast<double>());
-    if (!image) continue;
-    const Eigen::Vector2d pixel = image->array().round();
-    if ((pixel.array() < 0).any() || pixel.x() >= camera.width || pixel.y() >= camera.height) continue;
-    float& nearest = depths_[static_cast<std::size_t>(pixel.y()) * static_cast<std::size_t>(camera.width) +
-                             static_cast<std::size_t>(pixel.x())];
+    const std::optional<PixelPosition> pixel = pixel_of(camera, point.cast<double>());
+    if (!pixel) continue;
+    float& nearest = depths_[static_cast<std::size_t>(pixel->row) * static_cast<std::size_t>(camera.width) +
+                             static_cast<std::size_t>(pixel->column)];
     nearest = std::min(nearest, static_cast<float>(depth_of(camera, point.cast<double>())));
   }
 }

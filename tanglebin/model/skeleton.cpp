@@ -20,10 +20,10 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 struct Voxel {
   Vector3i key;
   Vector3d sum = Vector3d::Zero();  // of its points
-  std::vector<std::size_t> points{};
+  std::size_t points = 0;
   std::vector<std::size_t> neighbours{};  // voxels that touch it
 
-  Vector3d mean() const { return sum / static_cast<double>(points.size()); }
+  Vector3d mean() const { return sum / static_cast<double>(points); }
 };
 
 std::uint64_t hash(const Vector3i& key) {
@@ -49,28 +49,35 @@ std::array<Vector3i, 13> half_of_the_neighbours() {
   return offsets;
 }
 
-std::vector<Voxel> fill_voxels(const std::vector<Eigen::Vector3f>& points, double size) {
+struct VoxelGrid {
   std::vector<Voxel> voxels;
+  std::vector<std::size_t> of_points;  // the voxel of each point; none where it is not finite
+};
+
+VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, double size) {
+  VoxelGrid grid{{}, std::vector(points.size(), none)};
   std::unordered_map<std::uint64_t, std::size_t> at;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) continue;
     const Vector3d point = points[i].cast<double>();
     const Vector3i key = (point / size).array().floor().cast<int>();
-    const auto [found, is_new] = at.try_emplace(hash(key), voxels.size());
-    if (is_new) voxels.push_back({key});
-    voxels[found->second].sum += point;
-    voxels[found->second].points.push_back(i);
+    const auto [found, is_new] = at.try_emplace(hash(key), grid.voxels.size());
+    if (is_new) grid.voxels.push_back({key});
+    Voxel& voxel = grid.voxels[found->second];
+    voxel.sum += point;
+    ++voxel.points;
+    grid.of_points[i] = found->second;
   }
   const auto offsets = half_of_the_neighbours();
-  for (std::size_t i = 0; i < voxels.size(); ++i) {
+  for (std::size_t i = 0; i < grid.voxels.size(); ++i) {
     for (const Vector3i& offset : offsets) {
-      const auto found = at.find(hash(voxels[i].key + offset));
+      const auto found = at.find(hash(grid.voxels[i].key + offset));
       if (found == at.end()) continue;
-      voxels[i].neighbours.push_back(found->second);
-      voxels[found->second].neighbours.push_back(i);
+      grid.voxels[i].neighbours.push_back(found->second);
+      grid.voxels[found->second].neighbours.push_back(i);
     }
   }
-  return voxels;
+  return grid;
 }
 
 std::vector<std::vector<std::size_t>> connected_components(const std::vector<Voxel>& voxels) {
@@ -147,7 +154,7 @@ private:
     for (std::size_t next = 0; next < members.size(); ++next) {
       const Voxel& voxel = voxels_[members[next]];
       sum += voxel.sum;
-      count += voxel.points.size();
+      count += voxel.points;
       for (const std::size_t neighbour : voxel.neighbours) {
         if (level(neighbour) < level(first)) parent = std::min(parent, nodes_[neighbour]);
         if (level(neighbour) != level(first) || nodes_[neighbour] != none) continue;
@@ -224,27 +231,21 @@ private:
   std::vector<std::size_t> next_;  // where it goes first; none at a tip
 };
 
-std::vector<std::size_t> points_of(const std::vector<std::size_t>& component,
-                                   const std::vector<Voxel>& voxels) {
-  std::vector<std::size_t> points;
-  for (const std::size_t voxel : component) {
-    points.insert(points.end(), voxels[voxel].points.begin(), voxels[voxel].points.end());
-  }
-  std::ranges::sort(points);
-  return points;
-}
-
 }  // namespace
 
 std::vector<Skeleton> find_skeletons(const std::vector<Eigen::Vector3f>& points, double voxel, double step,
                                      double branch_min) {
-  const std::vector<Voxel> voxels = fill_voxels(points, voxel);
-  TreeMaker maker(voxels, step);
+  const VoxelGrid grid = fill_voxels(points, voxel);
+  TreeMaker maker(grid.voxels, step);
   std::vector<Skeleton> skeletons;
-  for (const std::vector<std::size_t>& component : connected_components(voxels)) {
+  std::vector<std::size_t> skeleton_of(grid.voxels.size());
+  for (const std::vector<std::size_t>& component : connected_components(grid.voxels)) {
+    for (const std::size_t member : component) skeleton_of[member] = skeletons.size();
     const Skeleton whole = maker.tree(component);
     skeletons.push_back(Pruner(whole, branch_min).pruned());
-    skeletons.back().points = points_of(component, voxels);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (grid.of_points[i] != none) skeletons[skeleton_of[grid.of_points[i]]].points.push_back(i);
   }
   return skeletons;
 }

@@ -76,6 +76,21 @@ std::optional<Vector2d> project(const Camera& camera, const Vector3d& point) {
   return Vector2d(camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy);
 }
 
+std::optional<PixelPosition> pixel_of(const Camera& camera, const Vector3d& point) {
+  const std::optional<Vector2d> image = project(camera, point);
+  if (!image) return std::nullopt;
+  // A pixel reaches half a pixel to each side of its centre.
+  const Vector2d from_corner = image->array() + 0.5;
+  const bool is_inside = from_corner.x() >= 0 && from_corner.y() >= 0 && from_corner.x() < camera.width &&
+                         from_corner.y() < camera.height;
+  if (!is_inside) return std::nullopt;
+  return PixelPosition{static_cast<int>(from_corner.x()), static_cast<int>(from_corner.y())};
+}
+
+double depth_of(const Camera& camera, const Vector3d& point) {
+  return camera.pose.linear().col(2).dot(point - camera.pose.translation());
+}
+
 void validate(const Camera& camera) {
   require_pixels(camera.width, "scanner.width");
   require_pixels(camera.height, "scanner.height");

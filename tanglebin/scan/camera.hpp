@@ -42,6 +42,18 @@ Ray ray_through(const Camera& camera, double u, double v);
 /// point that is not in front of the camera.
 std::optional<Eigen::Vector2d> project(const Camera& camera, const Eigen::Vector3d& point);
 
+/// A pixel of an image.
+struct PixelPosition {
+  int column;
+  int row;
+};
+
+/// The pixel that a point (m, world frame) projects to; nothing for a point that is not in the image.
+std::optional<PixelPosition> pixel_of(const Camera& camera, const Eigen::Vector3d& point);
+
+/// How far a point (m, world frame) is in front of the camera, m, along its z axis.
+double depth_of(const Camera& camera, const Eigen::Vector3d& point);
+
 /// Throws InputError naming the field under `scanner` that makes no camera.
 void validate(const Camera& camera);
 

@@ -17,26 +17,27 @@ Camera small_camera() {
   return downward_camera(101, 101, 1000, {0, 0, 2});
 }
 
-std::vector<std::uint32_t> indices(std::span<const PixelGrid::Item> run) {
-  std::vector<std::uint32_t> found;
-  for (const PixelGrid::Item& item : run) found.push_back(item.index);
+std::vector<Eigen::Vector3f> points_of(const PixelGrid::Run& run) {
+  std::vector<Eigen::Vector3f> found;
+  for (int i = 0; i < run.size; ++i) found.emplace_back(run.x[i], run.y[i], run.z[i]);
   return found;
 }
 
 TEST(PixelGrid, FindsPointsByTheirPixels) {
-  const PixelGrid grid({{0, 0, 0}, {0.002F, 0, 0}, {0, -0.002F, 0}, {0, 0, 0.1F}}, small_camera());
-  EXPECT_THAT(indices(grid.run(50, 50, 50)), testing::ElementsAre(0, 3));
-  EXPECT_THAT(indices(grid.run(50, 0, 100)), testing::ElementsAre(0, 3, 1));
-  EXPECT_THAT(indices(grid.run(51, -10, 1000)), testing::ElementsAre(2));
-  EXPECT_THAT(indices(grid.run(52, 0, 100)), IsEmpty());
-  EXPECT_THAT(indices(grid.run(-1, 0, 100)), IsEmpty());
+  const std::vector<Eigen::Vector3f> points = {{0, 0, 0}, {0.002F, 0, 0}, {0, -0.002F, 0}, {0, 0, 0.1F}};
+  const PixelGrid grid(points, small_camera());
+  EXPECT_THAT(points_of(grid.run(50, 50, 50)), testing::ElementsAre(points[0], points[3]));
+  EXPECT_THAT(points_of(grid.run(50, 0, 100)), testing::ElementsAre(points[0], points[3], points[1]));
+  EXPECT_THAT(points_of(grid.run(51, -10, 1000)), testing::ElementsAre(points[2]));
+  EXPECT_THAT(points_of(grid.run(52, 0, 100)), IsEmpty());
+  EXPECT_THAT(points_of(grid.run(-1, 0, 100)), IsEmpty());
 }
 
 TEST(PixelGrid, LeavesOutWhatTheCameraCannotSee) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const PixelGrid grid({{1, 0, 0}, {0, 0, 3}, {nan, nan, nan}}, small_camera());
-  EXPECT_THAT(grid.items(), IsEmpty());
-  EXPECT_THAT(indices(grid.run(50, 0, 100)), IsEmpty());
+  EXPECT_EQ(grid.size(), 0U);
+  EXPECT_THAT(points_of(grid.run(50, 0, 100)), IsEmpty());
 }
 
 TEST(PixelGrid, KnowsHowWideALengthAppears) {
@@ -54,10 +55,11 @@ TEST(PixelGrid, HoldsEveryPointOnceWhereItProjects) {
   }
   const Camera camera = small_camera();
   const PixelGrid grid(points, camera);
-  ASSERT_EQ(grid.items().size(), points.size());
+  ASSERT_EQ(grid.size(), points.size());
   std::vector<bool> seen(points.size());
-  for (std::size_t item = 0; item < grid.items().size(); ++item) {
-    const auto& [point, index] = grid.items()[item];
+  for (std::size_t item = 0; item < grid.size(); ++item) {
+    const Eigen::Vector3f point = grid.point(item);
+    const std::uint32_t index = grid.indices()[item];
     EXPECT_FALSE(seen[index]);
     seen[index] = true;
     EXPECT_EQ(point, points[index]);
