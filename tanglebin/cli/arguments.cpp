@@ -86,6 +86,16 @@ std::uint64_t parse_hexadecimal(std::string_view text, const std::string& option
   return value;
 }
 
+double parse_length(std::string_view text, const std::string& option) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  if (!is_number || !std::isfinite(value) || value <= 0) {
+    throw InputError({"", 0, option}, quoted(text), "a positive number");
+  }
+  return value;
+}
+
 std::vector<double> parse_ratios(std::string_view text, const std::string& option) {
   const auto expect = [&](bool holds, std::string_view found, const std::string& expected) {
     if (!holds) throw InputError({"", 0, option}, quoted(found), expected);

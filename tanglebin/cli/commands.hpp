@@ -17,5 +17,6 @@ void add_model(CLI::App& app);
 void add_score(CLI::App& app);
 void add_experiment(CLI::App& app);
 void add_report(CLI::App& app);
+void add_learn(CLI::App& app);
 
 }  // namespace tanglebin::cli

@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
   tanglebin::cli::add_score(app);
   tanglebin::cli::add_experiment(app);
   tanglebin::cli::add_report(app);
+  tanglebin::cli::add_learn(app);
   try {
     app.parse(argc, argv);  // runs the chosen command's callback
   } catch (const CLI::ParseError& error) {

@@ -24,6 +24,7 @@
 #include "tanglebin/dataset/safe_file.hpp"
 #include "tanglebin/model/axis_method.hpp"
 #include "tanglebin/model/paper_method.hpp"
+#include "tanglebin/model/radius.hpp"
 #include "tanglebin/report/pictures_of_steps.hpp"
 
 namespace tanglebin::cli {
@@ -38,16 +39,21 @@ struct ModelArguments {
   std::int64_t seed = 0;
   std::string bin = "paper";
   std::string scanner = "paper";
-  double radius = KnownScene().radius;
+  std::string radius = fmt::format("{}", KnownScene().radius);
   double length = KnownScene().length;
   int junctions = KnownScene().junctions;
   std::optional<std::string> debug_directory;
   bool json = false;
 };
 
-KnownScene known_scene(const ModelArguments& arguments) {
-  return {bin_preset(arguments.bin), camera_preset(arguments.scanner), arguments.radius, arguments.length,
-          arguments.junctions};
+KnownScene known_scene(const ModelArguments& arguments, const PointCloud& cloud) {
+  KnownScene known{.bin = bin_preset(arguments.bin),
+                   .camera = camera_preset(arguments.scanner),
+                   .length = arguments.length,
+                   .junctions = arguments.junctions};
+  known.radius = arguments.radius == "auto" ? estimate_radius(cloud, known, arguments.cloud)
+                                            : parse_length(arguments.radius, "--radius");
+  return known;
 }
 
 // The cloud's points in their order, with the labels that were found. PLY has no place for points without a
@@ -79,10 +85,12 @@ std::string cloud_bytes(const PointCloud& cloud, const Model& model, const std::
   return std::move(out).str();
 }
 
-void print_summary(const ModelArguments& arguments, const Model& model) {
+void print_summary(const ModelArguments& arguments, const KnownScene& known, const Model& model) {
   if (arguments.json) {
-    nlohmann::ordered_json json{
-        {"cloud", arguments.out}, {"points", model.labels.size()}, {"tubes", model.tubes.size()}};
+    nlohmann::ordered_json json{{"cloud", arguments.out},
+                                {"points", model.labels.size()},
+                                {"radius", known.radius},
+                                {"tubes", model.tubes.size()}};
     for (const Step& step : model.steps) {
       json["steps"].push_back(
           {{"name", step.name}, {"seconds", step.seconds}, {"count", step.count}, {"of", step.of}});
@@ -90,6 +98,7 @@ void print_summary(const ModelArguments& arguments, const Model& model) {
     fmt::print("{}\n", json.dump());
     return;
   }
+  if (arguments.radius == "auto") fmt::print("radius   {:>8.5f} m\n", known.radius);
   for (const Step& step : model.steps) {
     fmt::print("{:<8} {:>8.3f} s  {:>7} {}\n", step.name, step.seconds, step.count, step.of);
   }
@@ -119,7 +128,7 @@ void write_pictures(const PointCloud& cloud, const KnownScene& known, const Mode
 
 void model_cloud(const ModelArguments& arguments) {
   const PointCloud cloud = read_input(arguments.cloud, [](auto&&... from) { return read_cloud(from...); });
-  const KnownScene known = known_scene(arguments);
+  const KnownScene known = known_scene(arguments, cloud);
   const Model model = model_tubes(cloud, known, method_named(arguments.method), arguments.downsample,
                                   static_cast<std::uint64_t>(arguments.seed), arguments.cloud);
   write_output(arguments.out, cloud_bytes(cloud, model, arguments.out));
@@ -129,7 +138,7 @@ void model_cloud(const ModelArguments& arguments) {
     write_output(*arguments.tubes, tubes.str());
   }
   if (arguments.debug_directory) write_pictures(cloud, known, arguments);
-  if (arguments.out != standard_stream) print_summary(arguments, model);
+  if (arguments.out != standard_stream) print_summary(arguments, known, model);
 }
 
 }  // namespace
@@ -155,7 +164,9 @@ void add_model(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--scanner", arguments->scanner, "Camera: paper or zivid-one-plus-l")
       ->capture_default_str();
-  command->add_option("--radius", arguments->radius, "Radius of the tubes, m")->capture_default_str();
+  command
+      ->add_option("--radius", arguments->radius, "Radius of the tubes, m; auto estimates it from the cloud")
+      ->capture_default_str();
   command->add_option("--length", arguments->length, "Length of each tube, m, its branches included")
       ->capture_default_str();
   command

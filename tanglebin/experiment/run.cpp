@@ -26,6 +26,16 @@ int junctions(const TubeSpec& spec) {
       std::ranges::count_if(segments_at, [](const auto& node) { return node.second > 2; }));
 }
 
+PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int32_t> labels) {
+  PointCloud cloud;
+  cloud.points = std::move(points);
+  cloud.labels = std::move(labels);
+  cloud.width = cloud.points.size();
+  return cloud;
+}
+
+}  // namespace
+
 KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
   const TubeSpec& spec = spec_of(recipe, id.set);
   double length = 0;
@@ -36,16 +46,6 @@ KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
           .length = length,
           .junctions = junctions(spec)};
 }
-
-PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int32_t> labels) {
-  PointCloud cloud;
-  cloud.points = std::move(points);
-  cloud.labels = std::move(labels);
-  cloud.width = cloud.points.size();
-  return cloud;
-}
-
-}  // namespace
 
 Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run, std::uint64_t seed) {
   const CaseId& id = run.scene;

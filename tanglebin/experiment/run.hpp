@@ -29,6 +29,10 @@ struct RunId {
   auto operator<=>(const RunId&) const = default;
 };
 
+/// What the recipe of a case tells of its scene: the bin, the camera, the tubes' radius, length and
+/// junctions.
+KnownScene known_scene(const Recipe& recipe, const CaseId& id);
+
 /// Models the tubes of a run's case, whose bin, camera, radius and length the recipe tells. The model's seed
 /// follows from (`seed`, set, number of tubes, case) alone. Throws InputError as model_tubes() does.
 Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run, std::uint64_t seed);

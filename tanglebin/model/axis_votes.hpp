@@ -4,16 +4,12 @@
 #include <vector>
 
 #include "tanglebin/model/model.hpp"
+#include "tanglebin/model/surface_patches.hpp"
 
 namespace tanglebin {
 
 struct VoteSettings {
-  int neighbours = 40;         ///< points that a normal is estimated from, about
-  int neighbours_min = 5;      ///< a point with fewer does not vote
-  double reach_min = 0.36;     ///< radii; neighbours are nearer than the reach, which is chosen between
-  double reach_max = 0.85;     ///< radii; these two
-  double breadth_min = 0.02;   ///< reaches², least variance of the neighbours across their line
-  double roughness_max = 3.0;  ///< medians, most variance of the neighbours about their plane
+  PatchSettings patch;
   double floor_margin = 0.5;  ///< radii; a point nearer to the floor is not on a tube that is seen from above
   double bin_tolerance = 0.3;  ///< radii, by which an axis may be nearer to the bin than a radius
 };

@@ -39,17 +39,22 @@ double angle_of(const LinkFeatures& features) {
   return features[alpha];
 }
 
-double log_odds(const Link& link, const KnownScene& known) {
-  const LinkFeatures& weights = !link.to.end          ? link_weights.junction
-                                : known.junctions > 0 ? link_weights.tree_ends
-                                                      : link_weights.chain_ends;
-  return std::inner_product(weights.begin(), weights.end(), link.features.begin(), 0.0);
+double prior(LinkKind kind, const LinkSettings& settings) {
+  switch (kind) {
+    case LinkKind::chain_ends:
+      return settings.chain_prior;
+    case LinkKind::tree_ends:
+      return settings.tree_prior;
+    case LinkKind::junction:
+      return settings.junction_prior;
+  }
+  return 0;
 }
-double weight_of(const Link& link, const KnownScene& known, const LinkSettings& settings) {
-  const double prior = !link.to.end          ? settings.junction_prior
-                       : known.junctions > 0 ? settings.tree_prior
-                                             : settings.chain_prior;
-  return log_odds(link, known) + prior;
+
+double weight_of(const Link& link, const LinkSettings& settings) {
+  const LinkFeatures& weights = learned_weights.of(link.kind);
+  return std::inner_product(weights.begin(), weights.end(), link.features.begin(),
+                            prior(link.kind, settings));
 }
 
 // The cubic Hermite curve from one end to the other, at t in [0, 1].
@@ -217,9 +222,13 @@ public:
       for (std::size_t j = 0; j < g.ends.size(); ++j) {
         const double gap = (g.ends[j].position - f.ends[i].position).norm();
         if (!may_span(gap, f, g)) continue;
-        take_if_likely(
-            {first, i, {second, g.ends[j].node, j}, gap, features_of(f.ends[i], g.ends[j], known_.radius)},
-            f.ends[i], g.ends[j]);
+        take_if_likely({known_.junctions > 0 ? LinkKind::tree_ends : LinkKind::chain_ends,
+                        first,
+                        i,
+                        {second, g.ends[j].node, j},
+                        gap,
+                        features_of(f.ends[i], g.ends[j], known_.radius)},
+                       f.ends[i], g.ends[j]);
       }
     }
   }
@@ -238,7 +247,12 @@ public:
       const double gap = (*cheapest - f.ends[i].position).norm();
       if (!may_span(gap, f, g)) continue;
       const auto node = static_cast<std::size_t>(cheapest - g.nodes.begin());
-      take_if_likely({first, i, {second, node, std::nullopt}, gap, features_of(f.ends[i], *cheapest)},
+      take_if_likely({LinkKind::junction,
+                      first,
+                      i,
+                      {second, node, std::nullopt},
+                      gap,
+                      features_of(f.ends[i], *cheapest)},
                      f.ends[i], {node, *cheapest, (f.ends[i].position - *cheapest).normalized()});
     }
   }
@@ -252,7 +266,7 @@ private:
   }
 
   void take_if_likely(const Link& link, const FragmentEnd& from, const FragmentEnd& to) {
-    if (angle_of(link.features) > settings_.angle_max || weight_of(link, known_, settings_) <= 0) return;
+    if (angle_of(link.features) > settings_.angle_max || weight_of(link, settings_) <= 0) return;
     if (share_seen_empty(from, to, seen_, known_.radius) > settings_.seen_empty_max) return;
     links_.push_back(link);
   }
@@ -265,6 +279,18 @@ private:
 };
 
 }  // namespace
+
+const LinkFeatures& LinkWeights::of(LinkKind kind) const {
+  switch (kind) {
+    case LinkKind::chain_ends:
+      return chain_ends;
+    case LinkKind::tree_ends:
+      return tree_ends;
+    case LinkKind::junction:
+      break;
+  }
+  return junction;
+}
 
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
                              const KnownScene& known, const LinkSettings& settings) {
@@ -289,7 +315,7 @@ std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, co
   for (const Link& link : links) {
     const std::size_t from = ends_before[link.fragment] + link.end;
     const std::size_t to = link.to.end ? ends_before[link.to.fragment] + *link.to.end : ends + from;
-    pairs.push_back({from, to, weight_of(link, known, settings)});
+    pairs.push_back({from, to, weight_of(link, settings)});
   }
   // Three ends meet at a junction: a matching, which pairs them, finds chains only.
   const std::size_t vertices = 2 * ends;

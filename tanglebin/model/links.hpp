@@ -18,17 +18,27 @@ namespace tanglebin {
 inline constexpr std::size_t link_features = 6;
 using LinkFeatures = std::array<double, link_features>;
 
-/// The logarithm of the odds of a link is the sum of its features times these. Learned by logistic
-/// regression: docs/algorithm.md says from what.
-struct LinkWeights {
-  LinkFeatures chain_ends;  ///< between two ends of chains
-  LinkFeatures tree_ends;   ///< between two ends of trees
-  LinkFeatures junction;    ///< from an end to a junction
+/// What a link may be.
+enum class LinkKind {
+  chain_ends,  ///< between two ends of chains
+  tree_ends,   ///< between two ends of trees
+  junction,    ///< from an end to a junction
 };
-inline constexpr LinkWeights link_weights = {
-    .chain_ends = {-19.9917, -7.2194, 23.7816, -3.4172, -2.3707, 4.1290},
-    .tree_ends = {-3.7887, -2.2487, -17.0215, -4.7923, -0.0951, 3.5297},
-    .junction = {-7.5528, -3.1089, -6.1710, -5.9807, 1.4693, 0.0000},
+
+/// The logarithm of the odds of a link is the sum of its features times these.
+struct LinkWeights {
+  LinkFeatures chain_ends{};
+  LinkFeatures tree_ends{};
+  LinkFeatures junction{};
+
+  const LinkFeatures& of(LinkKind kind) const;
+};
+
+/// Learned by logistic regression: what `tanglebin learn` gives for recipes/learning.toml, to four decimals.
+inline constexpr LinkWeights learned_weights = {
+    .chain_ends = {-21.0617, -7.5466, 25.1531, -3.4052, -2.1253, 3.8048},
+    .tree_ends = {-2.8144, -2.0346, -18.9188, -4.4556, 0.0015, 2.9142},
+    .junction = {-5.3850, -2.5164, -11.2298, -5.9331, 1.4840, 0.0000},
 };
 
 struct LinkSettings {
@@ -52,6 +62,7 @@ struct LinkTarget {
 /// An end of a fragment, and what may be next on its tube: an end of another fragment, or a junction in the
 /// middle of one.
 struct Link {
+  LinkKind kind;
   std::size_t fragment;
   std::size_t end;  ///< index into Fragment::ends
   LinkTarget to;

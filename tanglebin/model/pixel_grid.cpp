@@ -65,7 +65,7 @@ PixelGrid::Run PixelGrid::run(int row, int first, int last) const {
   if (row < top_ || row >= top_ + height_ || first > last) return {};
   const std::uint32_t begin = starts_[position_of({first, row})];
   const std::uint32_t end = starts_[position_of({last, row}) + 1];
-  return {x_.data() + begin, y_.data() + begin, z_.data() + begin, static_cast<int>(end - begin)};
+  return {x_.data() + begin, y_.data() + begin, z_.data() + begin, static_cast<int>(end - begin), begin};
 }
 
 double PixelGrid::pixels_across(double length, const Eigen::Vector3f& point) const {

@@ -23,6 +23,7 @@ public:
     const float* y;
     const float* z;
     int size;
+    std::size_t first;  ///< the number of the first in the grid
   };
 
   /// The points of the grid, pixel after pixel and row after row: place, pixel, and index into the points
@@ -31,6 +32,8 @@ public:
   Eigen::Vector3f point(std::size_t item) const { return {x_[item], y_[item], z_[item]}; }
   const std::vector<PixelPosition>& pixels() const { return pixels_; }
   const std::vector<std::uint32_t>& indices() const { return indices_; }
+
+  const Camera& camera() const { return camera_; }
 
   /// The points in columns first … last of a row; columns and rows may be beyond the image.
   Run run(int row, int first, int last) const;

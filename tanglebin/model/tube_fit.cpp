@@ -66,7 +66,7 @@ Line assemble(const std::vector<Fragment>& fragments, const std::vector<std::siz
   std::map<std::size_t, FragmentNodes> added;
   for (const std::size_t member : members) added[member] = add_fragment(line, fragments[member]);
   for (const std::size_t i : chosen) {
-    const auto& [fragment, end, to, gap, features] = links[i];
+    const auto& [kind, fragment, end, to, gap, features] = links[i];
     if (!added.contains(fragment)) continue;
     const FragmentNodes& other = added[to.fragment];
     line.edges.push_back({added[fragment].ends[end], to.end ? other.ends[*to.end] : other.first + to.node});

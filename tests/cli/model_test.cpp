@@ -128,6 +128,20 @@ TEST_F(ModelCommand, OfAnEmptyCloudWritesAnEmptyOne) {
   EXPECT_EQ(test::bytes_of(directory_ / "tubes.txt"), "0\n");
 }
 
+TEST_F(ModelCommand, EstimatesTheRadius) {
+  const ProgramResult run = model("scan.ply", "--radius auto --json");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_NEAR(json.at("radius"), 0.0125, 0.02 * 0.0125);
+  EXPECT_EQ(json.at("tubes"), 2);
+  EXPECT_THAT(model("scan.ply", "--radius auto").out, HasSubstr("radius    0.012"));
+
+  write("empty.ply", ply_of(test::scanned({})));
+  const ProgramResult nothing = model("empty.ply", "--radius auto");
+  EXPECT_EQ(nothing.status, 2);
+  EXPECT_THAT(nothing.err, HasSubstr("radius: found too few points of a tube"));
+}
+
 TEST_F(ModelCommand, RefusesWhatItCannotModel) {
   PointCloud millimetres = scan_;
   for (Eigen::Vector3f& point : millimetres.points) point *= 1000;
@@ -136,7 +150,7 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
       {model("mm.ply", ""), "millimetres?"},
       {model("scan.ply", "--method magic"), "method: found \"magic\", expected paper, axis"},
       {model("scan.ply", "--downsample 0"), "downsample: found 0, expected"},
-      {model("scan.ply", "--radius -1"), "radius: found -1, expected a positive number"},
+      {model("scan.ply", "--radius -1"), "--radius: found '-1', expected a positive number"},
       {model("scan.ply", "--bin bucket"), "bucket"},
       {model("nowhere.ply", ""), "nowhere.ply"},
   };

@@ -92,6 +92,30 @@ TEST(Camera, PointsOnThePixelsRayProjectOntoThePixel) {
   }
 }
 
+TEST(Camera, APixelReachesHalfAPixelAroundItsCentre) {
+  // 10 x 8 pixels of 1 mm on the floor; the image's centre is at (4.5, 3.5).
+  const Camera camera = downward_camera(10, 8, 1000, {0, 0, 1});
+  const auto at = [&](double u, double v) {
+    const Eigen::Vector3d point(1e-3 * (u - 4.5), -1e-3 * (v - 3.5), 0);
+    const std::optional<PixelPosition> pixel = pixel_of(camera, point);
+    return pixel ? std::pair{pixel->column, pixel->row} : std::pair{-1, -1};
+  };
+  EXPECT_EQ(at(4, 3), std::pair(4, 3));
+  EXPECT_EQ(at(4.49, 3.49), std::pair(4, 3));
+  EXPECT_EQ(at(4.51, 2.51), std::pair(5, 3));
+  EXPECT_EQ(at(-0.49, -0.49), std::pair(0, 0));
+  EXPECT_EQ(at(9.49, 7.49), std::pair(9, 7));
+  for (const auto& [u, v] : {std::pair{-0.51, 3.0}, {9.51, 3.0}, {4.0, -0.51}, {4.0, 7.51}})
+    EXPECT_EQ(at(u, v), std::pair(-1, -1));
+  EXPECT_FALSE(pixel_of(camera, {0, 0, 1.5}).has_value());  // behind the camera
+}
+
+TEST(Camera, DepthIsAlongItsView) {
+  const Camera camera = downward_camera(10, 8, 1000, {0, 0, 1});
+  EXPECT_NEAR(depth_of(camera, {0.3, -0.2, 0.25}), 0.75, 1e-12);
+  EXPECT_NEAR(depth_of(camera, {0, 0, 1.5}), -0.5, 1e-12);
+}
+
 TEST(Camera, ValidationNamesTheFieldThatMakesNoCamera) {
   for (const char* name : {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1"})
     EXPECT_NO_THROW(validate(camera_preset(name)));

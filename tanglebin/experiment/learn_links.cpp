@@ -1,0 +1,132 @@
+#include "tanglebin/experiment/learn_links.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "tanglebin/experiment/run.hpp"
+#include "tanglebin/model/axis_method.hpp"
+#include "tanglebin/score/centre_line.hpp"
+#include "tanglebin/score/score_clouds.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+using FeatureVector = Eigen::Matrix<double, link_features, 1>;
+using FeatureMatrix = Eigen::Matrix<double, link_features, link_features>;
+
+/// Where the fragments of a model are on the true tubes.
+class TrueLinks {
+public:
+  TrueLinks(const CaseData& data, const AxisModel& found) : fragments_(found.fragments) {
+    for (const Tube& tube : data.tubes) lines_.emplace(tube.id, CentreLine(tube));
+    const std::vector<std::int32_t> labels = truth_labels(data.cloud, data.cloud_file);
+    for (const Fragment& fragment : fragments_) {
+      std::map<std::int32_t, int> counts;
+      for (const std::size_t point : fragment.points) ++counts[labels[found.model.filtered[point]]];
+      tubes_.push_back(
+          std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; })->first);
+    }
+  }
+
+  bool has(const Link& link) const {
+    const std::size_t from = link.fragment;
+    const std::size_t to = link.to.fragment;
+    if (tubes_[from] <= bin_label || tubes_[from] != tubes_[to]) return false;
+    const CentreLine& line = lines_.at(tubes_[from]);
+    if (!leads(line, fragments_[from].ends[link.end], from, to)) return false;
+    if (link.to.end && !leads(line, fragments_[to].ends[*link.to.end], to, from)) return false;
+    return (link.to.end || is_as_near_as_it_seems(line, link)) && is_nothing_between(line, from, to);
+  }
+
+private:
+  Place middle(const CentreLine& line, std::size_t fragment) const {
+    const std::vector<Vector3d>& nodes = fragments_[fragment].nodes;
+    return line.nearest(nodes[nodes.size() / 2]).place;
+  }
+
+  // Whether the way out of a fragment's end is the way along the tube to another fragment.
+  bool leads(const CentreLine& line, const FragmentEnd& end, std::size_t from, std::size_t to) const {
+    constexpr double outward = 0.004;  // m, enough to tell the two ends of the shortest fragment apart
+    const Place place = line.nearest(fragments_[from].nodes[end.node] + outward * end.outward).place;
+    const Place goal = middle(line, to);
+    return line.way(place, goal) < line.way(middle(line, from), goal);
+  }
+
+  // Whether the tube leads from the end straight to the junction, not by another one.
+  bool is_as_near_as_it_seems(const CentreLine& line, const Link& link) const {
+    constexpr double stretch = 1.3;  // a bent way is longer than the gap, by so much ...
+    constexpr double slack = 0.005;  // ... and so many m
+    const Place end = line.nearest(fragments_[link.fragment].ends[link.end].position).place;
+    const Place junction = line.nearest(fragments_[link.to.fragment].nodes[link.to.node]).place;
+    return line.way(end, junction) <= stretch * link.gap + slack;
+  }
+
+  bool is_nothing_between(const CentreLine& line, std::size_t from, std::size_t to) const {
+    constexpr double rounding = 0.0002;  // m
+    const Place first = middle(line, from);
+    const Place last = middle(line, to);
+    const double way = line.way(first, last);
+    for (std::size_t other = 0; other < fragments_.size(); ++other) {
+      if (other == from || other == to || tubes_[other] != tubes_[from]) continue;
+      const Place place = middle(line, other);
+      if (line.way(first, place) + line.way(place, last) < way + rounding) return false;
+    }
+    return true;
+  }
+
+  const std::vector<Fragment>& fragments_;
+  std::map<std::int32_t, CentreLine> lines_;
+  std::vector<std::int32_t> tubes_;  // the true label of most points of each fragment
+};
+
+LinkFeatures logistic_regression(const std::vector<LinkExample>& examples, LinkKind kind) {
+  constexpr double ridge = 1e-3;
+  constexpr double small_step = 1e-9;
+  constexpr int steps_max = 100;
+  FeatureVector weights = FeatureVector::Zero();
+  for (int i = 0; i < steps_max; ++i) {
+    FeatureVector gradient = ridge * weights;
+    FeatureMatrix curvature = ridge * FeatureMatrix::Identity();
+    for (const LinkExample& example : examples) {
+      if (example.kind != kind) continue;
+      const auto features = Eigen::Map<const FeatureVector>(example.features.data());
+      const double likelihood = 1 / (1 + std::exp(-weights.dot(features)));
+      gradient += (likelihood - (example.is_true ? 1 : 0)) * features;
+      curvature += likelihood * (1 - likelihood) * features * features.transpose();
+    }
+    const FeatureVector step = curvature.ldlt().solve(gradient);
+    weights -= step;
+    if (step.cwiseAbs().maxCoeff() < small_step) break;
+  }
+  LinkFeatures result;
+  std::ranges::copy(weights, result.begin());
+  return result;
+}
+
+}  // namespace
+
+std::vector<LinkExample> link_examples(const Dataset& dataset, const CaseId& id) {
+  const CaseData data = read_case(dataset, id);
+  AxisSettings settings;
+  constexpr double any = 1e9;
+  settings.link.chain_prior = settings.link.tree_prior = settings.link.junction_prior = any;
+  const AxisModel found = model_by_axes(data.cloud, known_scene(recipe_of(dataset, id), id), 1, 0, settings);
+  const TrueLinks truth(data, found);
+  std::vector<LinkExample> examples;
+  examples.reserve(found.links.size());
+  for (const Link& link : found.links) examples.push_back({link.kind, link.features, truth.has(link)});
+  return examples;
+}
+
+LinkWeights learn_weights(const std::vector<LinkExample>& examples) {
+  return {.chain_ends = logistic_regression(examples, LinkKind::chain_ends),
+          .tree_ends = logistic_regression(examples, LinkKind::tree_ends),
+          .junction = logistic_regression(examples, LinkKind::junction)};
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "tanglebin/cloud/cloud.hpp"
+#include "tanglebin/model/model.hpp"
+
+namespace tanglebin {
+
+/// The radius, m, of the tubes in a cloud (arguments as for model_tubes(); known.radius is looked at
+/// nowhere). All tubes are taken to have one. Throws InputError with `name` for a cloud that shows too little
+/// of a tube.
+double estimate_radius(const PointCloud& cloud, const KnownScene& known, const std::string& name);
+
+}  // namespace tanglebin

@@ -1,0 +1,139 @@
+#include "tanglebin/model/links.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "scanned.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// A straight piece of a tube, as it would be found.
+Fragment piece(const Vector3d& from, const Vector3d& to) {
+  const Vector3d direction = (to - from).normalized();
+  return {.points = {},
+          .nodes = {from, to},
+          .parents = {0, 0},
+          .ends = {{0, from, -direction}, {1, to, direction}},
+          .length = (to - from).norm()};
+}
+
+// Nothing was seen, so that nothing was seen to be empty.
+std::vector<Link> links_of(const std::vector<Fragment>& fragments, const KnownScene& known,
+                           const PointCloud& seen = {}) {
+  return find_links(fragments, RangeImage(seen, known.camera), known, {});
+}
+
+std::vector<Link> chosen_of(const std::vector<Fragment>& fragments, const KnownScene& known,
+                            const PointCloud& seen = {}) {
+  const std::vector<Link> links = links_of(fragments, known, seen);
+  std::vector<Link> chosen;
+  for (const std::size_t i : choose_links(fragments, links, known, {})) chosen.push_back(links[i]);
+  return chosen;
+}
+
+TEST(Links, JoinEndsThatFaceEachOtherAndSayHowFarApartTheyAre) {
+  const std::vector<Link> chosen = chosen_of(
+      {piece({-0.2, 0, 0.05}, {-0.05, 0, 0.05}), piece({0, 0, 0.05}, {0.15, 0, 0.05})}, test::paper_scene());
+  ASSERT_THAT(chosen, SizeIs(1));
+  const Link& link = chosen.front();
+  EXPECT_EQ(link.kind, LinkKind::chain_ends);
+  EXPECT_EQ(link.fragment, 0U);
+  EXPECT_EQ(link.end, 1U);
+  EXPECT_EQ(link.to.fragment, 1U);
+  EXPECT_EQ(link.to.end, 0U);
+  EXPECT_NEAR(link.gap, 0.05, 1e-12);
+  // 1, ln(gap + 2 mm), gap, and no angles.
+  EXPECT_THAT(link.features, ElementsAre(1, testing::DoubleNear(std::log(0.052), 1e-12),
+                                         testing::DoubleNear(0.05, 1e-12), testing::DoubleNear(0, 1e-6),
+                                         testing::DoubleNear(0, 1e-6), testing::DoubleNear(0, 1e-6)));
+}
+
+// Two of the three are a tube, but not all of them.
+TEST(Links, PreferTheStraightWay) {
+  KnownScene known = test::paper_scene();
+  known.length = 0.36;
+  const std::vector<Link> chosen =
+      chosen_of({piece({-0.2, 0, 0.05}, {-0.05, 0, 0.05}), piece({0, 0, 0.05}, {0.15, 0, 0.05}),
+                 piece({0, 0.02, 0.05}, {0, 0.15, 0.05})},
+                known);
+  ASSERT_THAT(chosen, SizeIs(1));
+  EXPECT_EQ(chosen.front().fragment, 0U);
+  EXPECT_EQ(chosen.front().to.fragment, 1U);
+}
+
+TEST(Links, AreNotWhereTheSensorSawThatThereIsNothing) {
+  const std::vector<Fragment> fragments = {piece({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
+                                           piece({0.05, 0, 0.05}, {0.2, 0, 0.05})};
+  EXPECT_THAT(links_of(fragments, test::paper_scene()), testing::Not(IsEmpty()));
+  // The empty bin: the sensor saw its floor between the two.
+  EXPECT_THAT(links_of(fragments, test::paper_scene(), test::scanned({})), IsEmpty());
+}
+
+TEST(Links, MakeNoTubeLongerThanItIs) {
+  KnownScene known = test::paper_scene();
+  const std::vector<Fragment> fragments = {piece({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
+                                           piece({0, 0, 0.05}, {0.15, 0, 0.05})};
+  known.length = 0.36;
+  EXPECT_THAT(links_of(fragments, known), testing::Not(IsEmpty()));
+  known.length = 0.33;
+  EXPECT_THAT(links_of(fragments, known), IsEmpty());
+}
+
+// Four pieces in a row, of which any two neighbours would join, but three are too long together.
+TEST(Links, GiveUpTheWeakestWhereTheTubeWouldBecomeTooLong) {
+  KnownScene known = test::paper_scene();
+  known.length = 0.24;
+  const std::vector<Link> chosen =
+      chosen_of({piece({-0.25, 0, 0.05}, {-0.15, 0, 0.05}), piece({-0.13, 0, 0.05}, {-0.03, 0, 0.05}),
+                 piece({0.02, 0, 0.05}, {0.12, 0, 0.05})},
+                known);
+  ASSERT_THAT(chosen, SizeIs(1));
+  EXPECT_NEAR(chosen.front().gap, 0.02, 1e-12);  // not the gap of 5 cm
+}
+
+TEST(Links, CloseNoTube) {
+  // Four sides of a square: three joins make it an open chain.
+  const double s = 0.08;
+  const std::vector<Fragment> square = {
+      piece({-s, -s - 0.02, 0.05}, {s, -s - 0.02, 0.05}), piece({s + 0.02, -s, 0.05}, {s + 0.02, s, 0.05}),
+      piece({s, s + 0.02, 0.05}, {-s, s + 0.02, 0.05}), piece({-s - 0.02, s, 0.05}, {-s - 0.02, -s, 0.05})};
+  KnownScene known = test::paper_scene();
+  known.length = 2;
+  EXPECT_THAT(chosen_of(square, known), SizeIs(3));
+}
+
+TEST(Links, OfTreesLeadToJunctionsToo) {
+  KnownScene known = test::paper_scene();
+  known.junctions = 1;
+  Fragment bar = piece({-0.1, 0, 0.05}, {0.1, 0, 0.05});
+  bar.nodes = {{-0.1, 0, 0.05}, {0, 0, 0.05}, {0.1, 0, 0.05}};
+  bar.parents = {0, 0, 1};
+  bar.ends[1].node = 2;
+  const std::vector<Link> chosen = chosen_of({bar, piece({0, 0.02, 0.05}, {0, 0.12, 0.05})}, known);
+  ASSERT_THAT(chosen, SizeIs(1));
+  EXPECT_EQ(chosen.front().kind, LinkKind::junction);
+  EXPECT_EQ(chosen.front().fragment, 1U);
+  EXPECT_EQ(chosen.front().to.fragment, 0U);
+  EXPECT_EQ(chosen.front().to.node, 1U);
+  EXPECT_EQ(chosen.front().to.end, std::nullopt);
+}
+
+TEST(LinkedFragments, AreGroupedByTheChosenLinks) {
+  const std::vector<Link> links = {{LinkKind::chain_ends, 0, 0, {2, 0, 0}, 0, {}},
+                                   {LinkKind::chain_ends, 1, 0, {3, 0, 0}, 0, {}},
+                                   {LinkKind::chain_ends, 2, 0, {3, 0, 0}, 0, {}}};
+  EXPECT_THAT(linked_fragments(4, links, {0, 1}), ElementsAre(ElementsAre(0, 2), ElementsAre(1, 3)));
+  EXPECT_THAT(linked_fragments(4, links, {}), SizeIs(4));
+}
+
+}  // namespace
+}  // namespace tanglebin
