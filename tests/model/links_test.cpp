@@ -63,7 +63,7 @@ TEST(Links, PreferTheStraightWay) {
   known.length = 0.36;
   const std::vector<Link> chosen =
       chosen_of({piece({-0.2, 0, 0.05}, {-0.05, 0, 0.05}), piece({0, 0, 0.05}, {0.15, 0, 0.05}),
-                 piece({0, 0.02, 0.05}, {0, 0.15, 0.05})},
+                 piece({0, 0.05, 0.05}, {0, 0.18, 0.05})},
                 known);
   ASSERT_THAT(chosen, SizeIs(1));
   EXPECT_EQ(chosen.front().fragment, 0U);
