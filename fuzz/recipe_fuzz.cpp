@@ -1,4 +1,5 @@
-// Any bytes are either a recipe, which then survives writing and reading, or an InputError.
+// Any bytes are either a recipe, which then survives writing and reading, or an InputError; and either a
+// setting of the command line or an InputError.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,17 +22,27 @@ std::string read_and_write(const std::string& text) {
   return out.str();
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  std::string written;
+/// Calls `call`; returns whether it threw an InputError.
+template <typename Call>
+bool is_refused(Call call) {
   try {
-    written = read_and_write(std::string(data, data + size));
+    call();
   } catch (const tanglebin::InputError& error) {
     // The program prints it on one line.
     if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
-    return 0;
+    return true;
   }
+  return false;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(data, data + size);
+  is_refused(
+      [&] { tanglebin::scanner_with("paper", {"scanner." + text.substr(0, text.find('\n'))}, "fuzz"); });
+  std::string written;
+  if (is_refused([&] { written = read_and_write(text); })) return 0;
   // An exception from here on is a crash: what the project writes is refused.
   if (read_and_write(written) != written) std::abort();
   return 0;

@@ -30,6 +30,8 @@ constexpr std::array<std::string_view, 9> whole_keys{"width",         "height", 
 
 constexpr std::array<std::string_view, 8> lens_keys{"width", "height", "hfov_deg", "focal_length_px",
                                                     "fx",    "fy",     "cx",       "cy"};
+// Of these, the ones that the others follow from where they are not said.
+constexpr std::array<std::string_view, 4> leading_lens_keys{"width", "height", "hfov_deg", "focal_length_px"};
 constexpr std::array<std::string_view, 4> pose_keys{"position", "rotation_wxyz", "rotation_matrix",
                                                     "look_at"};
 
@@ -39,7 +41,7 @@ bool holds(const auto& keys, std::string_view key) {
 
 bool is_random(const toml::node& node) {
   const toml::table* table = node.as_table();
-  return table != nullptr &&
+  return table != nullptr && table->is_inline() &&
          std::ranges::any_of(keys_of_ranges, [&](std::string_view key) { return table->contains(key); });
 }
 
@@ -93,7 +95,7 @@ bool is_whole(std::string_view path) {
 double finite_number(const toml::node& node, const RandomNumber& number, const std::string& file) {
   const auto value = node.value<double>();
   if (!value || !std::isfinite(*value)) fail(number, file, "what is no number", "finite numbers");
-  if (number.integer && !node.is_integer()) fail(number, file, fmt::format("{:#}", *value), "whole numbers");
+  if (number.integer && !node.is_integer()) fail(number, file, real_text(*value), "whole numbers");
   return *value;
 }
 
@@ -127,7 +129,6 @@ RandomNumber read_random_number(const std::string& path, const toml::node& node,
                       .integer = is_whole(path),
                       .one_of = {}};
   const toml::table& table = *node.as_table();
-  if (!table.is_inline()) fail(number, file, "a table", "one in braces: { min = NUMBER, max = NUMBER }");
   if (table.contains("one_of")) {
     read_list(table, number, file);
   } else {
@@ -137,7 +138,7 @@ RandomNumber read_random_number(const std::string& path, const toml::node& node,
 }
 
 std::string number_text(const RandomNumber& place, double number) {
-  return place.integer ? fmt::format("{}", static_cast<std::int64_t>(number)) : fmt::format("{:#}", number);
+  return place.integer ? fmt::format("{}", static_cast<std::int64_t>(number)) : real_text(number);
 }
 
 std::string text_of(const toml::node& node);
@@ -152,7 +153,7 @@ std::string text_of_array(const toml::array& array) {
 // Of a number, an array or a number to be drawn.
 std::string text_of(const toml::node& node) {
   if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
-  if (const auto* real = node.as_floating_point()) return fmt::format("{:#}", real->get());
+  if (const auto* real = node.as_floating_point()) return real_text(real->get());
   if (const toml::array* array = node.as_array()) return text_of_array(*array);
   const toml::table& table = *node.as_table();
   if (const toml::node* values = table.get("one_of"))
@@ -167,7 +168,7 @@ void add_settings(const toml::table& table, const std::string& path, std::vector
       return node != nullptr && holds_random(*node);
     });
   };
-  const bool lens = any_random_of(lens_keys);
+  const bool lens = any_random_of(leading_lens_keys);
   const bool pose = any_random_of(pose_keys);
   for (const auto& [key, node] : table) {
     const bool goes_with = (lens && holds(lens_keys, key.str())) || (pose && holds(pose_keys, key.str()));
@@ -272,10 +273,11 @@ std::string with_numbers(const std::string& text, const std::vector<RandomNumber
   return result + text.substr(done);
 }
 
-double draw_number(const RandomNumber& number, std::uint64_t recipe_seed, const CaseId& id) {
+double draw_number(const RandomNumber& number, const std::string& name, std::uint64_t recipe_seed,
+                   const CaseId& id) {
   constexpr int no_attempt = 0;  // of a scene's: these count from 1
   const std::uint64_t seed = attempt_seed(recipe_seed, id.set, id.tubes, id.number, no_attempt);
-  const CounterRandom random(attempt_seed(seed, number.path, 0, 0, 0), 0);
+  const CounterRandom random(attempt_seed(seed, name, 0, 0, 0), 0);
   const double uniform = random.uniform(0);
   if (!number.one_of.empty()) {
     return number.one_of[static_cast<std::size_t>(uniform * static_cast<double>(number.one_of.size()))];
@@ -285,12 +287,16 @@ double draw_number(const RandomNumber& number, std::uint64_t recipe_seed, const 
   return number.min + uniform * (number.max - number.min);
 }
 
+std::vector<double> numbers_to_try(const RandomNumber& number) {
+  return number.one_of.empty() ? std::vector{number.min, number.max} : number.one_of;
+}
+
 double lowest(const RandomNumber& number) {
-  return number.one_of.empty() ? number.min : std::ranges::min(number.one_of);
+  return std::ranges::min(numbers_to_try(number));
 }
 
 double highest(const RandomNumber& number) {
-  return number.one_of.empty() ? number.max : std::ranges::max(number.one_of);
+  return std::ranges::max(numbers_to_try(number));
 }
 
 std::vector<RandomSetting> random_settings(const toml::table& root) {

@@ -35,11 +35,13 @@ std::vector<RandomNumber> find_random_numbers(const toml::table& root, const std
 std::string with_numbers(const std::string& text, const std::vector<RandomNumber>& places,
                          const std::vector<double>& numbers);
 
-/// The number of a case of a recipe with this seed.
-double draw_number(const RandomNumber& number, std::uint64_t recipe_seed, const CaseId& id);
+/// The number of a case of a recipe with this seed. Numbers with different names are unrelated.
+double draw_number(const RandomNumber& number, const std::string& name, std::uint64_t recipe_seed,
+                   const CaseId& id);
 
-/// The numbers at one end of what can be drawn.
-double lowest(const RandomNumber& number);
+/// A range's two ends; all that there is in a list.
+std::vector<double> numbers_to_try(const RandomNumber& number);
+double lowest(const RandomNumber& number);  ///< of them
 double highest(const RandomNumber& number);
 
 /// The settings that random numbers are in, and those that go with them: where a part of a scanner's lens or

@@ -160,10 +160,6 @@ double radians_from_degrees(double degrees) {
   return degrees * radians_per_degree;
 }
 
-std::string real_text(double value) {
-  return fmt::format("{:#}", value);  // always a TOML float, so that −0 keeps its sign
-}
-
 // The shortest degrees that read_recipe turns into exactly these radians. Where the radians came from degrees
 // there are some: rounding puts them at most two doubles from the quotient.
 std::string degrees_text(double radians) {
@@ -289,12 +285,15 @@ void read_pose(const TomlTable& table, Camera& camera) {
   camera.pose.linear() = rotation;
 }
 
+Keys scanner_keys() {
+  return all(
+      {{"preset", "hfov_deg", "focal_length_px", "position", "rotation_wxyz", "rotation_matrix", "look_at"},
+       keys(camera_size_fields),
+       keys(camera_lens_fields),
+       keys(sensor_fields)});
+}
+
 Scanner read_scanner(const TomlTable& table) {
-  table.allow(all({{"name", "preset", "hfov_deg", "focal_length_px", "position", "rotation_wxyz",
-                    "rotation_matrix", "look_at"},
-                   keys(camera_size_fields),
-                   keys(camera_lens_fields),
-                   keys(sensor_fields)}));
   std::string name = "paper";
   table.get("preset", name);
   const Camera preset = with_place(table.file(), table.line("preset"), [&] { return camera_preset(name); });
@@ -304,22 +303,32 @@ Scanner read_scanner(const TomlTable& table) {
   read_pose(table, camera);
   Sensor sensor = sensor_preset(name);
   read_fields(table, sensor_fields, sensor);
-  std::string scanner_name;
-  table.get("name", scanner_name);
-  return {scanner_name, camera, sensor};
+  return {"", camera, sensor};
+}
+
+// The one [scanner] of a recipe.
+Scanner read_single_scanner(const TomlTable& table) {
+  table.allow(scanner_keys());
+  return read_scanner(table);
+}
+
+// A [[scanner]].
+Scanner read_named_scanner(const TomlTable& table) {
+  table.allow(all({{"name"}, scanner_keys()}));
+  table.require({"name"});
+  Scanner scanner = read_scanner(table);
+  table.get("name", scanner.name);
+  return scanner;
 }
 
 // One [scanner] without a name, or [[scanner]]s with names.
 void read_scanners(const TomlTable& root, Recipe& recipe) {
   std::vector<Scanner> all_scanners;
   if (root.is_array("scanner")) {
-    for (const TomlTable& table : root.tables("scanner")) {
-      table.require({"name"});
-      all_scanners.push_back(read_scanner(table));
-    }
+    for (const TomlTable& table : root.tables("scanner")) all_scanners.push_back(read_named_scanner(table));
     if (all_scanners.empty()) root.fail("scanner", "none", "at least one [[scanner]]");
   } else {
-    all_scanners.push_back(read_scanner(root.table("scanner")));
+    all_scanners.push_back(read_single_scanner(root.table("scanner")));
   }
   Scanner& first = all_scanners.front();
   recipe.scanner_name = first.name;
@@ -395,13 +404,17 @@ Recipe read_root(const TomlTable& root) {
   return recipe;
 }
 
-// The recipe's text, in ASCII: all that it says is, and comments do not matter. For toml++ 3.3 must not be
-// given other characters where TOML allows none (it runs into __builtin_unreachable); it refuses '?' there.
-std::string ascii_text(std::istream& in) {
-  std::string text;
-  for (std::string line; std::getline(in, line);) text += line + '\n';
+// In ASCII: all that a recipe says is, and comments do not matter. For toml++ 3.3 must not be given other
+// characters where TOML allows none (it runs into __builtin_unreachable); it refuses '?' there.
+std::string ascii(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) > 127; }, '?');
+  return text;
+}
+
+std::string lines_of(std::istream& in) {
+  std::string text;
+  for (std::string line; std::getline(in, line);) text += line + '\n';
   return text;
 }
 
@@ -439,14 +452,18 @@ void validate_at(const std::string& name, const toml::table& root, Call call) {
   }
 }
 
+// The words that stand for themselves in TOML.
+constexpr std::array<std::string_view, 4> toml_words{"true", "false", "inf", "nan"};
+
 // A setting of the command line, key=value, where a string needs no quotation marks.
 std::string toml_line(const std::string& setting) {
   const std::size_t middle = setting.find('=');
   if (middle == std::string::npos || middle + 1 == setting.size()) return setting;
   const std::string value = setting.substr(middle + 1);
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; };
-  const bool is_word = std::ranges::all_of(value, is_letter) && value != "true" && value != "false";
-  return is_word ? fmt::format("{} = \"{}\"", setting.substr(0, middle), value) : setting;
+  const bool begins_with_letter =
+      (value[0] >= 'a' && value[0] <= 'z') || (value[0] >= 'A' && value[0] <= 'Z');
+  const bool is_string = begins_with_letter && std::ranges::find(toml_words, value) == toml_words.end();
+  return is_string ? fmt::format("{} = {:?}", setting.substr(0, middle), value) : setting;
 }
 
 // Writing
@@ -565,7 +582,8 @@ void expect_lens_of_random_size(const std::vector<RandomSetting>& settings, cons
   }
 }
 
-// Reads the recipe with the lowest and with the highest numbers, and with each alone the highest.
+// Reads the recipe with the lowest and with the highest numbers, and with each alone at either end of its
+// range or at any number of its list.
 Recipe read_random(const std::string& text, const toml::table& root, const std::vector<RandomNumber>& numbers,
                    const std::string& name) {
   for (const RandomNumber& number : numbers) expect_drawable(number, name);
@@ -575,9 +593,11 @@ Recipe read_random(const std::string& text, const toml::table& root, const std::
   std::ranges::transform(numbers, highs.begin(), highest);
   read_text(with_numbers(text, numbers, highs), name);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    std::vector<double> one_high = lows;
-    one_high[i] = highs[i];
-    read_text(with_numbers(text, numbers, one_high), name);
+    std::vector<double> one_other = lows;
+    for (const double number : numbers_to_try(numbers[i])) {
+      one_other[i] = number;
+      read_text(with_numbers(text, numbers, one_other), name);
+    }
   }
   Recipe recipe = read_text(with_numbers(text, numbers, lows), name);
   recipe.random = random_settings(root);
@@ -597,6 +617,21 @@ bool concerns(const RandomNumber& number, const Recipe& recipe, const CaseId& id
   return number.path.starts_with(fmt::format("set[{}].", set - recipe.sets.begin()));
 }
 
+std::size_t index_in(const std::string& path) {
+  return std::stoul(path.substr(path.find('[') + 1));
+}
+
+// What a number is drawn by: its path without the place that its set or scanner has among the others. (A
+// case's seed knows the set's name.)
+std::string name_of(const RandomNumber& number, const Recipe& recipe) {
+  const std::string& path = number.path;
+  const auto after_index = [&] { return path.substr(path.find(']') + 1); };
+  if (path.starts_with("set[")) return "set" + after_index();
+  if (path.starts_with("scanner["))
+    return fmt::format("scanner.{}{}", scanners(recipe).at(index_in(path)).name, after_index());
+  return path;
+}
+
 }  // namespace
 
 std::vector<Scanner> scanners(const Recipe& recipe) {
@@ -610,7 +645,8 @@ std::vector<DrawnNumber> draw(const Recipe& recipe, const CaseId& id) {
   const std::string text = text_of(recipe);
   std::vector<DrawnNumber> drawn;
   for (const RandomNumber& number : find_random_numbers(parse(text, ""), text, "")) {
-    if (concerns(number, recipe, id)) drawn.push_back({number.path, draw_number(number, recipe.seed, id)});
+    if (!concerns(number, recipe, id)) continue;
+    drawn.push_back({number.path, draw_number(number, name_of(number, recipe), recipe.seed, id)});
   }
   return drawn;
 }
@@ -632,12 +668,12 @@ Recipe resolve(const Recipe& recipe, const std::vector<DrawnNumber>& drawn) {
 Scanner scanner_with(const std::string& preset, const std::vector<std::string>& settings,
                      const std::string& option) {
   std::string text;
-  for (const std::string& setting : settings) text += toml_line(setting) + '\n';
-  text += fmt::format("scanner.preset = {:?}\n", preset);
+  for (const std::string& setting : settings) text += toml_line(ascii(setting)) + '\n';
+  text += fmt::format("scanner.preset = {:?}\n", ascii(preset));
   const toml::table root = parse(text, option);
   const TomlTable table(option, root, "");
   table.allow({"scanner"});
-  Scanner scanner = read_scanner(table.table("scanner"));
+  Scanner scanner = read_single_scanner(table.table("scanner"));
   validate_at(option, root, [&] {
     validate(scanner.camera);
     validate(scanner.sensor);
@@ -646,7 +682,7 @@ Scanner scanner_with(const std::string& preset, const std::vector<std::string>& 
 }
 
 Recipe read_recipe(std::istream& in, const std::string& name) {
-  const std::string text = ascii_text(in);
+  const std::string text = ascii(lines_of(in));
   if (in.bad()) throw InputError({name, 0, ""}, "cannot be read");
   const toml::table root = parse(text, name);
   const std::vector<RandomNumber> numbers = find_random_numbers(root, text, name);

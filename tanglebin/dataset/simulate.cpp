@@ -45,11 +45,10 @@ std::vector<Tube> draw_tubes(Rng& rng, const TubeSpec& spec, int count, const Bi
   return tubes;
 }
 
-// The noise of each scanner follows from the scene's seed and the scanner's name.
 std::vector<Scan> scan_with_all(const Recipe& recipe, const std::vector<Tube>& tubes, std::uint64_t seed) {
   std::vector<Scan> scans;
   for (const Scanner& scanner : scanners(recipe)) {
-    scans.push_back(scan(tubes, recipe.bin, scanner.camera, scanner.sensor, scan_seed(seed, scanner.name)));
+    scans.push_back(scan(tubes, recipe.bin, scanner.camera, scanner.sensor, seed, scanner.name));
   }
   return scans;
 }
@@ -70,10 +69,6 @@ std::string no_valid_scene(const CaseId& id, const std::vector<Rejection>& rejec
 }
 
 }  // namespace
-
-std::uint64_t scan_seed(std::uint64_t scene_seed, std::string_view scanner) {
-  return scanner.empty() ? scene_seed : attempt_seed(scene_seed, scanner, 0, 0, 0);
-}
 
 Scene simulate(const Recipe& recipe, const CaseId& id) {
   const TubeSpec& spec = spec_of(recipe, id.set);

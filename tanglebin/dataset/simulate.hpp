@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tanglebin/dataset/case_id.hpp"
@@ -45,8 +44,5 @@ struct Scene {
 /// billionths), so that the text format holds the scene exactly. Throws InputError when recipe.attempts have
 /// failed, with what they failed by.
 Scene simulate(const Recipe& recipe, const CaseId& id);
-
-/// What the noise of a scanner follows from: the scene's seed, for a scanner with a name hashed with it.
-std::uint64_t scan_seed(std::uint64_t scene_seed, std::string_view scanner);
 
 }  // namespace tanglebin

@@ -61,13 +61,19 @@ std::string description(const toml::node& node) {
     case toml::node_type::integer:
       return fmt::format("{}", node.as_integer()->get());
     case toml::node_type::floating_point:
-      return fmt::format("{:#}", node.as_floating_point()->get());
+      return real_text(node.as_floating_point()->get());
     default:
       return "a date or time";
   }
 }
 
 }  // namespace
+
+std::string real_text(double value) {
+  const std::string text = fmt::format("{}", value);
+  const bool is_float = text.find_first_of(".ein") != std::string::npos;  // also "inf" and "nan"
+  return is_float ? text : text + ".0";
+}
 
 TomlTable::TomlTable(const std::string& file, const toml::table& table, std::string path)
     : file_(file), table_(table), path_(std::move(path)) {}

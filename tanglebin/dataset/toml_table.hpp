@@ -15,6 +15,9 @@
 
 namespace tanglebin {
 
+/// A number as a TOML float, in its shortest form: "1.0", "-0.0", "1e-05".
+std::string real_text(double value);
+
 /// A table of a TOML file read strictly: every error is an InputError with the file, the line and the key's
 /// whole path. Refers to the file's name and the parsed table; they must outlive it.
 class TomlTable {

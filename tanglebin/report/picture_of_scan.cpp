@@ -64,14 +64,18 @@ Color color_of_error(double error) {
   return blend({30, 60, 200}, {255, 255, 255}, {200, 30, 30}, 0.5 + error / (2 * largest_error_in_picture));
 }
 
+int quotient_rounded_up(int dividend, int divisor) {
+  return (dividend + divisor - 1) / divisor;
+}
+
 /// Six panels, three in a row.
 class Panels {
 public:
   explicit Panels(const PixelWindow& window)
       : window_(window),
-        step_((window.width + widest_panel - 1) / widest_panel),
-        width_(window.width / step_),
-        height_(window.height / step_),
+        step_(quotient_rounded_up(window.width, widest_panel)),
+        width_(quotient_rounded_up(window.width, step_)),
+        height_(quotient_rounded_up(window.height, step_)),
         picture_{3 * width_, 2 * height_, {}} {
     picture_.pixels.resize(static_cast<std::size_t>(picture_.width) *
                            static_cast<std::size_t>(picture_.height));

@@ -39,16 +39,6 @@ double radius_for_single_precision(double radius, double length, double scene_ra
   return std::sqrt(1.01 * radius * radius + 1e-5 * length * length) + 1e-6 * scene_radius;
 }
 
-Eigen::AlignedBox3d bounding_box(const std::vector<Capsule>& capsules) {
-  Eigen::AlignedBox3d box;
-  for (const Capsule& capsule : capsules) {
-    const Vector3d margin = Vector3d::Constant(capsule.radius);
-    box.extend(capsule.a.cwiseMin(capsule.b) - margin);
-    box.extend(capsule.a.cwiseMax(capsule.b) + margin);
-  }
-  return box;
-}
-
 /// One query and what it found.
 struct Query : RTCIntersectContext {
   std::vector<std::size_t>* found;
@@ -85,6 +75,16 @@ void add_capsules(RTCDevice device, RTCScene scene, const std::vector<Capsule>& 
 }
 
 }  // namespace
+
+Eigen::AlignedBox3d bounding_box(const std::vector<Capsule>& capsules) {
+  Eigen::AlignedBox3d box;
+  for (const Capsule& capsule : capsules) {
+    const Vector3d margin = Vector3d::Constant(capsule.radius);
+    box.extend(capsule.a.cwiseMin(capsule.b) - margin);
+    box.extend(capsule.a.cwiseMax(capsule.b) + margin);
+  }
+  return box;
+}
 
 struct CapsuleIndex::Embree {
   RTCDevice device = rtcNewDevice("threads=1");

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -8,6 +8,9 @@
 #include "tanglebin/tube/capsule.hpp"
 
 namespace tanglebin {
+
+/// The smallest axis-aligned box around capsules; empty for none.
+Eigen::AlignedBox3d bounding_box(const std::vector<Capsule>& capsules);
 
 /// All rays from one point whose directions deviate little from a central one.
 struct BeamShape {

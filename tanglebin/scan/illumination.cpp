@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tanglebin/base/counter_random.hpp"
 #include "tanglebin/scan/terms.hpp"
 
 namespace tanglebin {
@@ -14,14 +13,13 @@ using Eigen::Vector3d;
 constexpr double negligible = 1e-6;
 
 double drawn(std::uint64_t seed, Term term, std::int32_t label, double least, double greatest) {
-  const CounterRandom random(seed, static_cast<std::uint64_t>(term));
-  return least + (greatest - least) * random.uniform(static_cast<std::uint64_t>(label));
+  return least + (greatest - least) * random_of(seed, term).uniform(static_cast<std::uint64_t>(label));
 }
 
 }  // namespace
 
 Illumination::Illumination(const Surfaces& surfaces, const Camera& camera, const Sensor& sensor,
-                           std::uint64_t seed)
+                           std::uint64_t scene_seed)
     : sensor_(sensor),
       camera_position_(camera.pose.translation()),
       projector_position_(projector_beside(camera, sensor).pose.translation()),
@@ -29,8 +27,8 @@ Illumination::Illumination(const Surfaces& surfaces, const Camera& camera, const
   if (sensor.shadows) projector_.emplace(surfaces, camera, sensor);
   materials_[bin_label] = {sensor.bin_albedo, sensor.bin_gloss};
   for (const std::int32_t label : surfaces.labels) {
-    materials_[label] = {drawn(seed, Term::albedo, label, sensor.albedo_min, sensor.albedo_max),
-                         drawn(seed, Term::gloss, label, sensor.gloss_min, sensor.gloss_max)};
+    materials_[label] = {drawn(scene_seed, Term::albedo, label, sensor.albedo_min, sensor.albedo_max),
+                         drawn(scene_seed, Term::gloss, label, sensor.gloss_min, sensor.gloss_max)};
   }
 }
 

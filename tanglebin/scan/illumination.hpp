@@ -14,7 +14,8 @@ namespace tanglebin {
 /// How much of the projector's light comes back to the camera.
 class Illumination {
 public:
-  Illumination(const Surfaces& surfaces, const Camera& camera, const Sensor& sensor, std::uint64_t seed);
+  Illumination(const Surfaces& surfaces, const Camera& camera, const Sensor& sensor,
+               std::uint64_t scene_seed);
 
   /// The signal-to-noise ratio of a point (m, world frame) of a surface; 0 where the projector does not reach
   /// it.

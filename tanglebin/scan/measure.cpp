@@ -79,19 +79,19 @@ std::vector<bool> near_edges(const Scan& ideal, const Sensor& sensor) {
 /// Goes through an ideal scan tile by tile, and puts what is measured in each pixel's place.
 class Measurement {
 public:
-  Measurement(const Surfaces& surfaces, Scan ideal, const Sensor& sensor, std::uint64_t seed)
+  Measurement(const Surfaces& surfaces, Scan ideal, const Sensor& sensor, const ScanSeeds& seeds)
       : surfaces_(surfaces),
         scan_(std::move(ideal)),
         camera_(scan_.camera),
         sensor_(sensor),
         optical_axis_(camera_.pose.linear().col(2)),
-        illumination_(surfaces, camera_, sensor, seed),
-        noise_(sensor, camera_, seed),
-        dropout_(seed, static_cast<std::uint64_t>(Term::dropout)),
-        lateral_(seed, static_cast<std::uint64_t>(Term::kinect_lateral)) {
+        illumination_(surfaces, camera_, sensor, seeds.scene),
+        noise_(sensor, camera_, seeds.scanner),
+        dropout_(random_of(seeds.scanner, Term::dropout)),
+        lateral_(random_of(seeds.scanner, Term::kinect_lateral)) {
     if (sensor.edges != Edges::keep) near_edge_ = near_edges(scan_, sensor);
-    if (sensor.trueness > 0) trueness_ = trueness_errors(sensor, scan_.window, seed);
-    if (traces_rays()) index_.emplace(surfaces, camera_, ray_margin());
+    if (sensor.trueness > 0) trueness_ = trueness_errors(sensor, scan_.window, seeds.scanner);
+    if (const double margin = ray_margin(sensor); margin > 0) index_.emplace(surfaces, camera_, margin);
   }
 
   Scan run() {
@@ -108,14 +108,6 @@ public:
   }
 
 private:
-  bool traces_rays() const { return sensor_.kinect_noise || sensor_.edges != Edges::keep; }
-
-  /// How far from a pixel's centre its rays may be, in pixels.
-  double ray_margin() const {
-    const double footprint = sensor_.edges == Edges::keep ? 0 : sensor_.footprint / 2;
-    return footprint + (sensor_.kinect_noise ? farthest_lateral_shift : 0);
-  }
-
   void measure_tile(int left, int top, int size) {
     tile_left_ = left;
     tile_top_ = top;
@@ -164,12 +156,25 @@ private:
   std::optional<Sight> see(int u, int v, std::size_t i, const Vector2d& shift) {
     const bool may_be_edge = !near_edge_.empty() && (near_edge_[i] || sensor_.kinect_noise);
     if (may_be_edge && straddles_edge(u + shift.x(), v + shift.y())) {
-      return sensor_.edges == Edges::mix ? std::optional(see_mixture(u + shift.x(), v + shift.y()))
-                                         : std::nullopt;
+      return sensor_.edges == Edges::mix ? see_mixture(u + shift.x(), v + shift.y()) : std::nullopt;
     }
-    if (!sensor_.kinect_noise) return see_ideal(scan_.pixels[i]);
+    const Pixel& own = scan_.pixels[i];
+    if (!sensor_.kinect_noise) return see_ideal(own);
     const auto hit = trace(u + shift.x(), v + shift.y());
-    return hit ? std::optional(see_hit(*hit)) : std::nullopt;
+    if (!hit) return std::nullopt;
+    return is_on_surface_of(own, *hit, shift) ? see_ideal(own) : see_hit(*hit);
+  }
+
+  /// Is what a moved ray met the surface that the pixel's own ray met? Then the slope explains how much their
+  /// depths differ: across a plane they do by at most the shift (as an angle) times 1 + tan(incidence) times
+  /// the larger depth, and across a curved surface by no more than where it is steeper.
+  bool is_on_surface_of(const Pixel& own, const Hit& hit, const Vector2d& shift) const {
+    if (own.label != hit.first.label) return false;
+    const double own_depth = own.depth;
+    const double angle = std::hypot(shift.x() / camera_.fx, shift.y() / camera_.fy);
+    const double steepest = std::max<double>(own.incidence, incidence_of(hit.ray, hit.first.surface.normal));
+    return std::abs(hit.depth - own_depth) <=
+           angle * (1 + std::abs(std::tan(steepest))) * std::max(hit.depth, own_depth);
   }
 
   std::optional<Sight> see_ideal(const Pixel& pixel) {
@@ -231,8 +236,9 @@ private:
     return hits > 0 && (hits < corners || farthest - nearest > sensor_.edge_jump);
   }
 
-  /// The nearest of the surfaces that a footprint's sub-rays meet, at the mean depth of all.
-  Sight see_mixture(double u, double v) {
+  /// The nearest of the surfaces that a footprint's sub-rays meet, at the mean depth of all, weighted by
+  /// signal; nothing where no signal comes back.
+  std::optional<Sight> see_mixture(double u, double v) {
     const int n = sensor_.sub_rays;
     const double step = sensor_.footprint / n;
     std::optional<Hit> nearest;
@@ -248,13 +254,10 @@ private:
         if (!nearest || hit->depth < nearest->depth) nearest = hit;
       }
     }
+    if (!(signal > 0)) return std::nullopt;
     const Vector3d& normal = nearest->first.surface.normal;
-    return {signal > 0 ? weighted_depth / signal : nearest->depth,
-            normal,
-            incidence_of(nearest->ray, normal),
-            nearest->first.label,
-            signal / (n * n),
-            true};
+    return Sight{weighted_depth / signal, normal,           incidence_of(nearest->ray, normal),
+                 nearest->first.label,    signal / (n * n), true};
   }
 
   void record(int u, int v, std::size_t i, const Sight& sight) {
@@ -298,8 +301,13 @@ private:
 
 }  // namespace
 
-Scan measure(const Surfaces& surfaces, Scan ideal, const Sensor& sensor, std::uint64_t seed) {
-  return Measurement(surfaces, std::move(ideal), sensor, seed).run();
+double ray_margin(const Sensor& sensor) {
+  const double footprint = sensor.edges == Edges::keep ? 0 : sensor.footprint / 2;
+  return footprint + (sensor.kinect_noise ? farthest_lateral_shift : 0);
+}
+
+Scan measure(const Surfaces& surfaces, Scan ideal, const Sensor& sensor, const ScanSeeds& seeds) {
+  return Measurement(surfaces, std::move(ideal), sensor, seeds).run();
 }
 
 }  // namespace tanglebin

@@ -15,10 +15,6 @@ namespace {
 constexpr double right_angle = std::numbers::pi / 2;
 constexpr double steepest = 85 * std::numbers::pi / 180;  // of what Nguyen et al. fitted
 
-CounterRandom random_of(std::uint64_t seed, Term term) {
-  return {seed, static_cast<std::uint64_t>(term)};
-}
-
 // A sum of waves of random direction, length and phase is a Gaussian process in the limit of many, whose
 // covariance is exp(−d² / 2 length²) where wave vectors are normal with 1 / length (Rahimi and Recht 2007).
 constexpr std::size_t waves = 8;

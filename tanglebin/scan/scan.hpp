@@ -40,7 +40,7 @@ struct Scan {
   std::vector<Pixel> pixels;  ///< window.width * window.height
 
   // Of a scan by a sensor; empty where the scanner is ideal
-  std::vector<float> snr{};  ///< of each pixel: the signal-to-noise ratio, relative to `Sensor::snr`'s
+  std::vector<float> snr{};  ///< of each pixel: the signal-to-noise ratio (docs/sensor.md), which has no unit
   std::vector<std::uint8_t> mixed{};  ///< of each pixel: 1 where it is the mean of several surfaces
 
   /// The pixel in column u, row v of the whole image; (u, v) must lie in the window.

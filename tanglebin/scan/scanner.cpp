@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "tanglebin/base/random.hpp"
 #include "tanglebin/scan/measure.hpp"
 #include "tanglebin/scan/tile_index.hpp"
 
@@ -23,8 +24,8 @@ Pixel shade(const Ray& ray, const LabelledHit& hit, const Vector3d& optical_axis
           .label = hit.label};
 }
 
-Scan ideal_scan(const Surfaces& surfaces, const Camera& camera) {
-  const PixelWindow window = window_of(surfaces, camera);
+Scan ideal_scan(const Surfaces& surfaces, const Camera& camera, double window_margin) {
+  const PixelWindow window = window_of(surfaces, camera, window_margin);
   const int right = window.left + window.width;
   const int bottom = window.top + window.height;
   const TileIndex index(surfaces, camera, 0);
@@ -51,18 +52,26 @@ Scan ideal_scan(const Surfaces& surfaces, const Camera& camera) {
   return result;
 }
 
+// The one scanner of a scene, which needs no name, has the scene's seed.
+std::uint64_t seed_of_scanner(std::uint64_t scene_seed, std::string_view scanner) {
+  return scanner.empty() ? scene_seed : attempt_seed(scene_seed, scanner, 0, 0, 0);
+}
+
 }  // namespace
 
 Scan scan(const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera) {
-  return ideal_scan(surfaces_of(tubes, bin), camera);
+  validate(camera);
+  return ideal_scan(surfaces_of(tubes, bin), camera, 0);
 }
 
 Scan scan(const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera, const Sensor& sensor,
-          std::uint64_t seed) {
+          std::uint64_t scene_seed, std::string_view scanner) {
+  validate(camera);
   validate(sensor);
   const Surfaces surfaces = surfaces_of(tubes, bin);
-  Scan ideal = ideal_scan(surfaces, camera);
-  return is_ideal(sensor) ? ideal : measure(surfaces, std::move(ideal), sensor, seed);
+  Scan ideal = ideal_scan(surfaces, camera, ray_margin(sensor));
+  if (is_ideal(sensor)) return ideal;
+  return measure(surfaces, std::move(ideal), sensor, {scene_seed, seed_of_scanner(scene_seed, scanner)});
 }
 
 }  // namespace tanglebin

@@ -12,7 +12,9 @@ namespace tanglebin {
 namespace {
 
 constexpr int most_sub_rays = 16;
-constexpr double largest_footprint = 9;  // pixels
+constexpr double largest_footprint = 9;          // pixels
+constexpr double largest_error = 1;              // m
+constexpr double largest_disparity_sigma = 100;  // pixels
 
 [[noreturn]] void fail(const std::string& key, double value, const std::string& expected) {
   throw InputError({.file = "", .line = 0, .field = "scanner." + key}, fmt::format("{}", value), expected);
@@ -26,22 +28,36 @@ void require_not_negative(double value, const char* key, const std::string& expe
   if (!(std::isfinite(value) && value >= 0)) fail(key, value, expected);
 }
 
-void require_order(double least, double greatest, const std::string& least_key,
-                   const std::string& greatest_key) {
-  if (!(least <= greatest)) {
-    fail(least_key, least, fmt::format("at most {} = {}: exchange the two", greatest_key, greatest));
+void require_within(double value, double least, double greatest, const char* key,
+                    const std::string& expected) {
+  if (!(value >= least && value <= greatest)) fail(key, value, expected);
+}
+
+/// The two ends of a range; names the one that is not as it stands without being set.
+void require_order(const Sensor& sensor, double Sensor::*least, double Sensor::*greatest,
+                   const std::string& least_key, const std::string& greatest_key) {
+  if (sensor.*least <= sensor.*greatest) return;
+  if (sensor.*least == Sensor{}.*least) {
+    fail(greatest_key, sensor.*greatest,
+         fmt::format("at least {} = {}, or a lower {}", least_key, sensor.*least, least_key));
   }
+  fail(least_key, sensor.*least,
+       fmt::format("at most {} = {}, or a higher {}", greatest_key, sensor.*greatest, greatest_key));
 }
 
 void validate_noise(const Sensor& sensor) {
-  require_not_negative(sensor.sigma, "sigma", "metres of noise, or 0 for none");
+  require_within(sensor.sigma, 0, largest_error, "sigma",
+                 fmt::format("at most {} metre of noise, or 0 for none", largest_error));
   if (!(sensor.dropout >= 0 && sensor.dropout < 1)) {
     fail("dropout", sensor.dropout, "a share of the pixels from 0 to less than 1");
   }
-  require_not_negative(sensor.disparity_sigma, "disparity_sigma", "pixels of noise, or 0 for none");
-  require_not_negative(sensor.trueness, "trueness", "metres of error, or 0 for none");
-  require_positive(sensor.trueness_length, "trueness_length",
-                   "a positive number of pixels; trueness = 0 switches the term off");
+  require_within(sensor.disparity_sigma, 0, largest_disparity_sigma, "disparity_sigma",
+                 fmt::format("at most {} pixels of noise, or 0 for none", largest_disparity_sigma));
+  require_within(sensor.trueness, 0, largest_error, "trueness",
+                 fmt::format("at most {} metre of error, or 0 for none", largest_error));
+  if (!(std::isfinite(sensor.trueness_length) && sensor.trueness_length >= 1)) {
+    fail("trueness_length", sensor.trueness_length, "at least 1 pixel; trueness = 0 switches the term off");
+  }
 }
 
 void validate_footprint(const Sensor& sensor) {
@@ -65,20 +81,22 @@ void validate_projector(const Sensor& sensor) {
 }
 
 void validate_signal(const Sensor& sensor) {
+  const char* const reflectance = "a reflectance from 0 to 1";
+  const char* const highlight = "a highlight of 0 or more";
   require_positive(sensor.snr, "snr", "a positive ratio; signal = false switches the term off");
   require_not_negative(sensor.snr_min, "snr_min", "a ratio, or 0 to lose no weak pixel");
-  require_order(sensor.snr_min, sensor.snr_max, "snr_min", "snr_max");
-  require_not_negative(sensor.albedo_min, "albedo_min", "a reflectance from 0 to 1");
-  require_order(sensor.albedo_min, sensor.albedo_max, "albedo_min", "albedo_max");
-  if (!(sensor.albedo_max <= 1)) fail("albedo_max", sensor.albedo_max, "a reflectance from 0 to 1");
-  require_not_negative(sensor.gloss_min, "gloss_min", "a highlight of 0 or more");
-  require_order(sensor.gloss_min, sensor.gloss_max, "gloss_min", "gloss_max");
+  require_positive(sensor.snr_max, "snr_max", "a positive ratio, a large one to lose no bright pixel");
+  require_order(sensor, &Sensor::snr_min, &Sensor::snr_max, "snr_min", "snr_max");
+  require_within(sensor.albedo_min, 0, 1, "albedo_min", reflectance);
+  require_within(sensor.albedo_max, 0, 1, "albedo_max", reflectance);
+  require_order(sensor, &Sensor::albedo_min, &Sensor::albedo_max, "albedo_min", "albedo_max");
+  require_not_negative(sensor.gloss_min, "gloss_min", highlight);
+  require_not_negative(sensor.gloss_max, "gloss_max", highlight);
+  require_order(sensor, &Sensor::gloss_min, &Sensor::gloss_max, "gloss_min", "gloss_max");
   require_positive(sensor.shininess, "shininess",
-                   "a positive exponent; gloss_max = 0 switches highlights off");
-  if (!(sensor.bin_albedo >= 0 && sensor.bin_albedo <= 1)) {
-    fail("bin_albedo", sensor.bin_albedo, "a reflectance from 0 to 1");
-  }
-  require_not_negative(sensor.bin_gloss, "bin_gloss", "a highlight of 0 or more");
+                   "a positive exponent; gloss_min = 0 and gloss_max = 0 switch highlights off");
+  require_within(sensor.bin_albedo, 0, 1, "bin_albedo", reflectance);
+  require_not_negative(sensor.bin_gloss, "bin_gloss", highlight);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "tanglebin/base/counter_random.hpp"
+
 namespace tanglebin {
 
 // Internal to the room.
@@ -18,5 +20,9 @@ enum class Term : std::uint64_t {
   kinect_axial = 7,
   kinect_lateral = 8,
 };
+
+inline CounterRandom random_of(std::uint64_t seed, Term term) {
+  return {seed, static_cast<std::uint64_t>(term)};
+}
 
 }  // namespace tanglebin

@@ -11,12 +11,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 AlignedBox3d bounding_box(const Surfaces& surfaces) {
-  AlignedBox3d all;
-  for (const Capsule& capsule : surfaces.capsules) {
-    const Vector3d margin = Vector3d::Constant(capsule.radius);
-    all.extend(capsule.a.cwiseMin(capsule.b) - margin);
-    all.extend(capsule.a.cwiseMax(capsule.b) + margin);
-  }
+  AlignedBox3d all = bounding_box(surfaces.capsules);
   for (const AlignedBox3d& box : surfaces.boxes) all.extend(box);
   return all;
 }
@@ -61,7 +56,7 @@ Surfaces surfaces_of(const std::vector<Tube>& tubes, const Bin& bin) {
   return surfaces;
 }
 
-PixelWindow window_of(const Surfaces& surfaces, const Camera& camera) {
+PixelWindow window_of(const Surfaces& surfaces, const Camera& camera, double margin) {
   constexpr int corners = 8;
   const AlignedBox3d box = bounding_box(surfaces);
   Eigen::AlignedBox2d projection;
@@ -77,8 +72,8 @@ PixelWindow window_of(const Surfaces& surfaces, const Camera& camera) {
   if (behind > 0) return {.left = 0, .top = 0, .width = camera.width, .height = camera.height};
 
   const Vector2d last_pixel(camera.width - 1, camera.height - 1);
-  const Vector2d first = projection.min().array().floor().matrix().cwiseMax(Vector2d::Zero());
-  const Vector2d last = projection.max().array().ceil().matrix().cwiseMin(last_pixel);
+  const Vector2d first = (projection.min().array() - margin).floor().matrix().cwiseMax(Vector2d::Zero());
+  const Vector2d last = (projection.max().array() + margin).ceil().matrix().cwiseMin(last_pixel);
   if ((first.array() > last.array()).any()) return {};
   return {.left = static_cast<int>(first.x()),
           .top = static_cast<int>(first.y()),

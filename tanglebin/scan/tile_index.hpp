@@ -27,8 +27,9 @@ struct Surfaces {
 
 Surfaces surfaces_of(const std::vector<Tube>& tubes, const Bin& bin);
 
-/// The pixels onto which the scene projects; all of them where it is only partly in front of the camera.
-PixelWindow window_of(const Surfaces& surfaces, const Camera& camera);
+/// The pixels onto which the scene projects and those up to `margin` pixels beside them; all of them where
+/// the scene is only partly in front of the camera.
+PixelWindow window_of(const Surfaces& surfaces, const Camera& camera, double margin);
 
 /// What the rays of a tile may meet: indices into the surfaces' arrays.
 struct Candidates {

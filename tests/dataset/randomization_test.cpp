@@ -1,5 +1,6 @@
 #include "tanglebin/dataset/randomization.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,6 +62,52 @@ TEST(Randomization, NumbersAreDrawnForEachCaseFromItsNameAlone) {
   EXPECT_NE(drawn(recipe, {"A", 1, 1}).at("scanner.baseline"), first.at("scanner.baseline"));
   EXPECT_NE(drawn(read("seed = 4\n" + scanner + sets), {"A", 3, 1}).at("scanner.baseline"),
             first.at("scanner.baseline"));
+}
+
+TEST(Randomization, ASetsNumbersDoNotDependOnTheSetsBefore) {
+  const std::string only_b = sets.substr(sets.rfind("[[set]]"));
+  const Recipe both = read(scanner + sets);
+  const Recipe alone = read(scanner + only_b);
+  for (int number = 1; number <= 20; ++number) {
+    const CaseId id{"B", 2, number};
+    EXPECT_EQ(drawn(alone, id).at("set[0].tube.mass"), drawn(both, id).at("set[1].tube.mass"));
+    EXPECT_EQ(drawn(alone, id).at("scanner.baseline"), drawn(both, id).at("scanner.baseline"));
+  }
+}
+
+TEST(Randomization, AScannersNumbersGoWithItsName) {
+  const std::string left = "[[scanner]]\nname = \"left\"\nsigma = { min = 0, max = 0.001 }\n";
+  const std::string right = "[[scanner]]\nname = \"right\"\nsigma = { min = 0, max = 0.001 }\n";
+  const CaseId id{"A", 1, 1};
+  const auto left_first = drawn(read(left + right + sets), id);
+  const auto right_first = drawn(read(right + left + sets), id);
+  EXPECT_EQ(left_first.at("scanner[0].sigma"), right_first.at("scanner[1].sigma"));
+  EXPECT_EQ(left_first.at("scanner[1].sigma"), right_first.at("scanner[0].sigma"));
+  EXPECT_NE(left_first.at("scanner[0].sigma"), left_first.at("scanner[1].sigma"));
+}
+
+TEST(Randomization, ThePrincipalPointIsDrawnInAnImageOfFixedSize) {
+  const Recipe recipe = read(
+      "[scanner]\npreset = \"zivid-one-plus-l\"\nwidth = 960\nheight = 600\n"
+      "cx = { min = 470, max = 490 }\n" +
+      sets);
+  const CaseId id{"A", 1, 1};
+  const Camera camera = resolve(recipe, draw(recipe, id)).camera;
+  EXPECT_EQ(camera.cx, drawn(recipe, id).at("scanner.cx"));
+  EXPECT_EQ(camera.cy, 299.5);
+  EXPECT_EQ(camera.fx, 1365);
+  EXPECT_EQ(write(read(write(recipe))), write(recipe));
+}
+
+TEST(Randomization, LimitsOfAnySizeComeBack) {
+  for (int exponent = -20; exponent <= 20; ++exponent) {
+    const Recipe recipe = read(
+        fmt::format("[scanner]\nfx = {{ min = 1e{}, max = 2e{} }}\nfy = 1\n", exponent, exponent) + sets);
+    const Recipe again = read(write(recipe));
+    const CaseId id{"A", 1, 1};
+    EXPECT_EQ(drawn(again, id), drawn(recipe, id));
+    EXPECT_EQ(resolve(again, draw(again, id)).camera.fx, drawn(recipe, id).at("scanner.fx"));
+  }
 }
 
 TEST(Randomization, ACasesRecipeHasTheDrawnNumbersAndNothingRandom) {
@@ -129,7 +176,9 @@ TEST(Randomization, SaysWhichRangeIsWrongAndWhatToDo) {
   EXPECT_THAT(complaint("[bin]\nheight = { min = 0.3 }\n" + sets),
               HasSubstr("r.toml:2: bin.height: found a table, expected { min = NUMBER, max = NUMBER }"));
   EXPECT_THAT(complaint("[bin]\nheight.min = 0.2\nheight.max = 0.3\n" + sets),
-              HasSubstr("expected one in braces"));
+              HasSubstr("r.toml:2: bin.height: found a table, expected a number"));
+  EXPECT_THAT(complaint("[bin]\nmin = 0.2\n" + sets), HasSubstr("r.toml:2: bin: unknown key 'min'"))
+      << "a table of its own is no range";
   EXPECT_THAT(complaint("[bin]\nheight = { one_of = [] }\n" + sets), HasSubstr("at least one of them"));
   EXPECT_THAT(complaint("[bin]\nheight = { one_of = [\"high\"] }\n" + sets),
               HasSubstr("found what is no number"));
@@ -148,6 +197,11 @@ TEST(Randomization, BothEndsOfARangeMustMakeARecipe) {
       HasSubstr("r.toml:4: bin.height"));
   EXPECT_THAT(complaint("[scanner]\ndropout = { min = 0.5, max = 1 }\n" + sets),
               HasSubstr("scanner.dropout: found 1"));
+}
+
+TEST(Randomization, AllOfAListMustMakeARecipe) {
+  EXPECT_THAT(complaint("[scanner]\nrotation_wxyz = [{ one_of = [-1, 0, 1] }, 0, 0, 0]\n" + sets),
+              HasSubstr("found a quaternion of norm 0"));
 }
 
 }  // namespace

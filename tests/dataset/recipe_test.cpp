@@ -17,6 +17,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/case_id.hpp"
+#include "tanglebin/dataset/toml_table.hpp"
 #include "tests/support/complaint.hpp"
 
 namespace tanglebin {
@@ -129,6 +130,21 @@ TEST(Recipe, ASetIsEnough) {
   EXPECT_EQ(spec.segments[0].cylinder_length_min, 0.02);
   EXPECT_EQ(spec.segments[0].bend_min, 0.0);
   EXPECT_EQ(spec.segments[0].bend_max, 30 * degree);
+}
+
+TEST(Recipe, WritesNumbersOfAnySizeAsTomlHasThem) {
+  EXPECT_EQ(real_text(1), "1.0");
+  EXPECT_EQ(real_text(-0.0), "-0.0");
+  EXPECT_EQ(real_text(0.25), "0.25");
+  EXPECT_EQ(real_text(1e-5), "1e-05");
+  for (int exponent = -20; exponent <= 20; ++exponent) {
+    Recipe recipe = read(smallest);
+    recipe.camera.fx = std::pow(10, exponent);
+    recipe.camera.pose.translation().x() = -std::pow(10, exponent);
+    const Recipe again = read(write(recipe));
+    EXPECT_EQ(again.camera.fx, recipe.camera.fx);
+    EXPECT_EQ(again.camera.pose.translation(), recipe.camera.pose.translation());
+  }
 }
 
 TEST(Recipe, TakesCommentsInAnyLanguage) {
@@ -253,6 +269,22 @@ TEST(Recipe, TheCommandLineSetsWhatARecipesScannerHas) {
   EXPECT_THAT(said("scanner.focal_length_px=0"), HasSubstr("--set:2: scanner.focal_length_px: found 0"));
   EXPECT_THAT(said("scanner.basline=0.1"), HasSubstr("did you mean 'baseline'?"));
   EXPECT_THAT(said("bin.length=1"), HasSubstr("unknown key 'bin'"));
+  EXPECT_THAT(said("scanner.name=left"), HasSubstr("unknown key 'name'"));
+  EXPECT_THAT(said("scanner.edges=Mix"), HasSubstr("found 'Mix', expected \"keep\", \"drop\" or \"mix\""));
+  EXPECT_THAT(said("scanner.dropout=1mm"), HasSubstr("--set:2: "));
+  EXPECT_THAT(said("scanner.dropout=much"),
+              HasSubstr("--set:2: scanner.dropout: found 'much', expected a number"));
+  EXPECT_THAT(said("scanner.dropout=inf"), HasSubstr("scanner.dropout: found inf, expected a finite number"));
+  EXPECT_THAT(said("scanner.shadows=yes"), HasSubstr("expected true or false"));
+  EXPECT_EQ(said("scanner.shadows=true"), "none");
+  EXPECT_THAT(said("scanner.dropout=\xC3\xA9"), HasSubstr("--set:2: "))
+      << "a character that TOML has not there";
+  EXPECT_THAT(said("scanner.edges=m\xC3\xAFx"), HasSubstr("found 'm\?\?x'"));
+}
+
+TEST(Recipe, TheOneScannerOfARecipeNeedsNoName) {
+  EXPECT_THAT(complaint("[scanner]\nname = \"left\"\n" + smallest),
+              HasSubstr("r.toml:2: scanner: unknown key 'name'"));
 }
 
 const std::string two_scanners =

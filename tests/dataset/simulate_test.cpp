@@ -90,8 +90,26 @@ TEST(Simulate, TheSensorsNoiseFollowsFromTheScenesSeed) {
     if (again.pixels[i].label == null_label) continue;
     EXPECT_EQ(again.pixels[i].point, scene.scan.pixels[i].point);
   }
-  EXPECT_EQ(scan_seed(scene.seed, ""), scene.seed);
-  EXPECT_NE(scan_seed(scene.seed, "left"), scan_seed(scene.seed, "right"));
+}
+
+TEST(Simulate, TwoScannersOfASceneSeeTheSameTubesEachWithItsOwnNoise) {
+  Recipe recipe = small_recipe();
+  recipe.sensor = {.sigma = 0.001, .signal = true};
+  recipe.scanner_name = "left";
+  recipe.further_scanners = {{"right", recipe.camera, recipe.sensor}};
+  const Scene scene = simulate(recipe, {"A", 3, 1});
+  const Scan& left = scene.scan;
+  const Scan& right = scene.further_scans.at(0);
+  EXPECT_EQ(left.snr, right.snr) << "of the same albedo and gloss";
+  int points = 0;
+  int same = 0;
+  for (std::size_t i = 0; i < left.pixels.size(); ++i) {
+    ASSERT_EQ(left.pixels[i].label, right.pixels[i].label);
+    if (left.pixels[i].label == null_label) continue;
+    ++points;
+    same += left.pixels[i].range == right.pixels[i].range ? 1 : 0;
+  }
+  EXPECT_LT(same, points / 100);
 }
 
 }  // namespace

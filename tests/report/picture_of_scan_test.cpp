@@ -64,6 +64,15 @@ TEST_F(PictureOfScan, ShowsWhatIsTooFarRedTooNearBlueAndLostBlack) {
   EXPECT_EQ(at(picture, 22, window.height + 20), (Color{0, 0, 0}));
 }
 
+TEST_F(PictureOfScan, ShowsALineOfPixelsToo) {
+  const Scan line = scan({tube_across()}, Bin{}, downward_camera(2000, 1, 2000, {0, 0, 2}));
+  ASSERT_GT(line.window.width, 480) << "so that it is scaled down";
+  const Picture picture = picture_of_scan(line, line, "scan");
+  EXPECT_EQ(picture.height, 2);
+  EXPECT_LE(picture.width, 3 * 480);
+  EXPECT_EQ(at(picture, picture.width / 2, 0), label_colors(1)[1]) << "the tube in the middle";
+}
+
 TEST_F(PictureOfScan, RefusesAScannerThatSeesNothing) {
   const Scan away = scan({}, Bin{}, downward_camera(240, 150, 170, {50, 0, 2}));
   EXPECT_EQ(test::complaint([&] { picture_of_scan(away, away, "tubes.txt"); }),

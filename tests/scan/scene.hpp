@@ -26,6 +26,11 @@ inline Vector3d random_direction(Rng& rng) {
   return direction.normalized();
 }
 
+/// Wide and flat: its floor fills the image.
+inline Bin wide_bin() {
+  return {.length = 8, .width = 8, .height = 0.01, .wall = 0.02, .friction = 1};
+}
+
 /// A tube through these points.
 inline Tube chain(int id, double radius, const std::vector<Vector3d>& points) {
   Tube tube{.id = id, .radius = radius, .mass = 0.5, .nodes = {}, .edges = {}};

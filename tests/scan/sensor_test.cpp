@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tanglebin/scan/camera.hpp"
+#include "tanglebin/scan/scanner.hpp"
 #include "tests/support/complaint.hpp"
 
 namespace tanglebin {
@@ -42,7 +43,8 @@ TEST(Sensor, PresetsAreValidAndOnlyThePapersIsIdeal) {
 }
 
 TEST(Sensor, NamesTheKeyThatMakesNoSenseAndTheRemedy) {
-  EXPECT_THAT(complaint({.sigma = -1}), StartsWith("scanner.sigma: found -1, expected metres of noise"));
+  EXPECT_THAT(complaint({.sigma = -1}),
+              StartsWith("scanner.sigma: found -1, expected at most 1 metre of noise, or 0 for none"));
   EXPECT_THAT(complaint({.dropout = 1}), StartsWith("scanner.dropout: found 1, expected a share"));
   EXPECT_THAT(complaint({.baseline = 0}),
               StartsWith("scanner.baseline: found 0, expected a positive distance"));
@@ -50,7 +52,7 @@ TEST(Sensor, NamesTheKeyThatMakesNoSenseAndTheRemedy) {
   EXPECT_THAT(complaint({.working_distance = 0}), StartsWith("scanner.working_distance: found 0"));
   EXPECT_THAT(complaint({.snr = -2}), StartsWith("scanner.snr: found -2, expected a positive ratio"));
   EXPECT_THAT(complaint({.snr_min = 3}),
-              StartsWith("scanner.snr_min: found 3, expected at most snr_max = 2.5: exchange the two"));
+              StartsWith("scanner.snr_min: found 3, expected at most snr_max = 2.5, or a higher snr_max"));
   EXPECT_THAT(complaint({.albedo_min = 0.9}), StartsWith("scanner.albedo_min: found 0.9, expected at most"));
   EXPECT_THAT(complaint({.albedo_max = 1.5}), StartsWith("scanner.albedo_max: found 1.5"));
   EXPECT_THAT(complaint({.gloss_min = 2}), StartsWith("scanner.gloss_min: found 2"));
@@ -64,6 +66,36 @@ TEST(Sensor, NamesTheKeyThatMakesNoSenseAndTheRemedy) {
   EXPECT_THAT(complaint({.trueness = -1}), StartsWith("scanner.trueness: found -1"));
   EXPECT_THAT(complaint({.trueness_length = 0}), StartsWith("scanner.trueness_length: found 0"));
   EXPECT_THAT(complaint({.sigma = std::numeric_limits<double>::quiet_NaN()}), HasSubstr("found nan"));
+}
+
+TEST(Sensor, NamesTheEndOfARangeThatWasSet) {
+  EXPECT_THAT(complaint({.snr_max = 0.1}),
+              StartsWith("scanner.snr_max: found 0.1, expected at least snr_min = 0.15, or a lower snr_min"));
+  EXPECT_THAT(complaint({.albedo_max = 0.2}), StartsWith("scanner.albedo_max: found 0.2, expected at least"));
+  EXPECT_THAT(complaint({.gloss_max = 0}), StartsWith("scanner.gloss_max: found 0, expected at least"));
+  EXPECT_EQ(complaint({.gloss_min = 0, .gloss_max = 0}), "none");
+  EXPECT_THAT(complaint({.snr_min = 0.6, .snr_max = 0.5}),
+              StartsWith("scanner.snr_min: found 0.6, expected at most snr_max = 0.5"));
+  EXPECT_THAT(complaint({.snr_min = 3, .snr_max = -1}),
+              StartsWith("scanner.snr_max: found -1, expected a positive ratio"))
+      << "what is wrong by itself comes first";
+  EXPECT_THAT(complaint({.gloss_max = -1}), StartsWith("scanner.gloss_max: found -1, expected a highlight"));
+}
+
+TEST(Sensor, RefusesWhatNoScannerHas) {
+  EXPECT_THAT(complaint({.sigma = 1e300}),
+              StartsWith("scanner.sigma: found 1e+300, expected at most 1 metre"));
+  EXPECT_THAT(complaint({.disparity_sigma = 101}), HasSubstr("at most 100 pixels"));
+  EXPECT_THAT(complaint({.trueness = 1.1}), HasSubstr("at most 1 metre"));
+  EXPECT_THAT(complaint({.trueness_length = 0.5}), HasSubstr("at least 1 pixel"));
+}
+
+TEST(Sensor, AScanRefusesACameraAsItDoesASensor) {
+  Camera camera = camera_preset("paper");
+  camera.fx = 0;
+  const auto expected = StartsWith("scanner.fx: found 0");
+  EXPECT_THAT(test::complaint([&] { scan({}, Bin{}, camera); }), expected);
+  EXPECT_THAT(test::complaint([&] { scan({}, Bin{}, camera, {.sigma = 0.001}, 1); }), expected);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include "scene.hpp"
@@ -15,12 +16,9 @@ namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
+using test::wide_bin;
 
 constexpr std::uint64_t seed = 2022;
-
-Bin wide_bin() {
-  return {.length = 8, .width = 8, .height = 0.01, .wall = 0.02, .friction = 1};
-}
 
 // Where the two tangents from (x, z) to a circle meet the floor: the circle's shadow.
 struct Interval {
@@ -133,6 +131,60 @@ TEST(StructuredLight, AFlyingPixelHasTheMeanDepthOfItsSubRays) {
   EXPECT_GE(mixed, 2);
 }
 
+// The camera is above a wall's inner face, from under which the top of a thick tube comes; both surfaces are
+// level where they are seen.
+TEST(StructuredLight, AFlyingPixelsDepthIsWeightedBySignal) {
+  const Bin bin{.length = 1, .width = 4, .height = 0.2, .wall = 0.3, .friction = 1};
+  const std::vector<Tube> tubes = {test::chain(1, 0.5, {Vector3d(0.5, -1, -0.4), Vector3d(0.5, 1, -0.4)})};
+  constexpr double focal_length = 58'500;
+  const Camera camera = downward_camera(61, 9, focal_length, Vector3d(0.5 + 0.1 * 0.8 / focal_length, 0, 1));
+  const Sensor sensor{.edges = Edges::mix,
+                      .footprint = 3,
+                      .sub_rays = 6,
+                      .signal = true,
+                      .snr = 2,
+                      .snr_min = 0,
+                      .snr_max = 100,
+                      .albedo_min = 0.9,
+                      .albedo_max = 0.9,
+                      .gloss_min = 0,
+                      .gloss_max = 0,
+                      .bin_albedo = 0.3,
+                      .bin_gloss = 0};
+  const auto snr_at = [](double depth, double albedo) {
+    const double to_projector = std::hypot(0.2, depth);
+    return 2 * std::pow(2 / to_projector, 2) * albedo * depth / to_projector;
+  };
+  const double rim = snr_at(0.8, 0.3);
+  const double tube = snr_at(0.9, 0.9);
+  const Scan measured = scan(tubes, bin, camera, sensor, seed);
+  int mixed = 0;
+  for (int u = 20; u < 40; ++u) {
+    int on_tube = 0;
+    for (int i = 0; i < 6; ++i) on_tube += u + (i + 0.5) * 0.5 - 1.5 < 29.9 ? 1 : 0;
+    const double signal = on_tube * tube + (6 - on_tube) * rim;
+    const Pixel& pixel = measured.at(u, 4);
+    EXPECT_NEAR(pixel.depth, (on_tube * tube * 0.9 + (6 - on_tube) * rim * 0.8) / signal, 1e-4)
+        << "column " << u;
+    EXPECT_NEAR(measured.snr[measured.index(u, 4)], signal / 6, 0.001 * signal) << "column " << u;
+    const bool straddles = on_tube > 0 && on_tube < 6;
+    EXPECT_EQ(measured.mixed[measured.index(u, 4)], straddles ? 1 : 0) << "column " << u;
+    EXPECT_EQ(pixel.label, on_tube < 6 ? bin_label : 1) << "the rim is the nearest, column " << u;
+    mixed += straddles ? 1 : 0;
+  }
+  EXPECT_GE(mixed, 2);
+}
+
+// The camera is above the bin's outermost edge, beyond which there is nothing.
+TEST(StructuredLight, AFootprintThatReachesTheOuterRimSeesIt) {
+  const Bin bin{.length = 1, .width = 4, .height = 0.2, .wall = 0.3, .friction = 1};
+  const Camera camera = downward_camera(60, 9, 585, Vector3d(0.8, 0, 1));
+  const Scan measured = scan({}, bin, camera, {.edges = Edges::mix, .footprint = 5, .sub_rays = 5}, seed);
+  EXPECT_EQ(measured.at(31, 4).label, bin_label) << "its outermost sub-ray is half a pixel over the rim";
+  EXPECT_NEAR(measured.at(31, 4).depth, 0.8, 1e-6);
+  EXPECT_EQ(measured.at(32, 4).label, null_label);
+}
+
 TEST(StructuredLight, AFlyingPixelHasTheLabelOfTheNearestSurface) {
   const std::vector<Tube> tubes = {test::chain(7, 0.0125, {Vector3d(-1, 0, 0.2), Vector3d(1, 0.1, 0.2)})};
   const Camera camera = downward_camera(320, 240, 2730, Vector3d(0, 0, 2));
@@ -187,31 +239,60 @@ TEST(StructuredLight, AHighlightIsLostWhereTheMirrorDirectionMeetsTheCamera) {
   EXPECT_NEAR(lost * std::pow(2.0 / 2730, 2) / area, 1, 0.04);
 }
 
-TEST(StructuredLight, EachTubeHasItsOwnAlbedoAndGloss) {
+/// Forty tubes beside each other, and how bright the brightest pixel of each is.
+std::map<std::int32_t, double> brightest_of_tubes(const Sensor& sensor, std::string_view scanner) {
   std::vector<Tube> tubes;
   for (int id = 1; id <= 40; ++id) {
     const double y = 0.03 * (id - 20);
     tubes.push_back(test::chain(id, 0.0125, {Vector3d(-0.1, y, 0.0125), Vector3d(0.1, y, 0.0125)}));
   }
   const Camera camera = downward_camera(200, 1200, 1200, Vector3d(0, 0, 2));
-  const Sensor sensor{.signal = true, .snr_min = 0, .snr_max = 100, .gloss_min = 0, .gloss_max = 0};
-  const Scan measured = scan(tubes, wide_bin(), camera, sensor, seed);
+  const Scan measured = scan(tubes, wide_bin(), camera, sensor, seed, scanner);
   std::map<std::int32_t, double> brightest;
   for (std::size_t i = 0; i < measured.pixels.size(); ++i) {
     if (measured.pixels[i].label == null_label) continue;
     double& snr = brightest[measured.pixels[i].label];
     snr = std::max(snr, static_cast<double>(measured.snr[i]));
   }
-  double least = 1;
-  double greatest = 0;
-  for (int id = 1; id <= 40; ++id) {
-    const double albedo = brightest.at(id) / 2;
-    EXPECT_LT(albedo, 0.65 * 1.03) << "a little nearer than the working distance";
-    EXPECT_GT(albedo, 0.35 * 0.85) << "seen and lit from the side";
-    least = std::min(least, albedo);
-    greatest = std::max(greatest, albedo);
+  brightest.erase(bin_label);
+  return brightest;
+}
+
+/// Are the tubes' materials, of a property drawn between two limits, within them and different?
+void expect_drawn_between(double lowest, double highest, const std::map<std::int32_t, double>& brightest) {
+  ASSERT_EQ(brightest.size(), 40U);
+  double least = highest;
+  double greatest = lowest;
+  for (const auto& [id, snr] : brightest) {
+    EXPECT_LT(snr / 2, highest * 1.03) << "a little nearer than the working distance";
+    EXPECT_GT(snr / 2, lowest * 0.85) << "seen and lit from the side";
+    least = std::min(least, snr / 2);
+    greatest = std::max(greatest, snr / 2);
   }
-  EXPECT_GT(greatest - least, 0.2);
+  EXPECT_GT(greatest - least, 0.6 * (highest - lowest));
+}
+
+const Sensor matt{.signal = true, .snr_min = 0, .snr_max = 100, .gloss_min = 0, .gloss_max = 0};
+// Highlights are wide, so that a pixel sees their brightest point.
+const Sensor mirrors{
+    .signal = true, .snr_min = 0, .snr_max = 100, .albedo_min = 0, .albedo_max = 0, .shininess = 4};
+
+TEST(StructuredLight, EachTubeHasItsOwnAlbedoAndGloss) {
+  const auto albedos = brightest_of_tubes(matt, "");
+  const auto glosses = brightest_of_tubes(mirrors, "");
+  expect_drawn_between(0.35, 0.65, albedos);
+  expect_drawn_between(0.1, 1, glosses);
+  int only_one_above_the_middle = 0;
+  for (const auto& [id, albedo] : albedos) {
+    only_one_above_the_middle += (albedo / 2 > 0.5) != (glosses.at(id) / 2 > 0.55) ? 1 : 0;
+  }
+  EXPECT_GE(only_one_above_the_middle, 10) << "a bright tube need not shine";
+}
+
+TEST(StructuredLight, AllScannersOfASceneSeeTheSameMaterial) {
+  for (const Sensor& sensor : {matt, mirrors}) {
+    EXPECT_EQ(brightest_of_tubes(sensor, "left"), brightest_of_tubes(sensor, "right"));
+  }
 }
 
 }  // namespace
