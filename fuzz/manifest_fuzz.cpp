@@ -9,12 +9,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/catalogue.hpp"
 #include "tanglebin/dataset/finished_cases.hpp"
+#include "tanglebin/dataset/recipe.hpp"
 
 namespace {
 
@@ -49,6 +51,31 @@ void check_that_it_reads_back(const tanglebin::Catalogue& catalogue, const fs::p
   if (tanglebin::read_dataset_summary(directory)->digest != written.digest) std::abort();
 }
 
+tanglebin::Recipe recipe_with_a_number_to_draw() {
+  std::istringstream text(
+      "[scanner]\nsigma = { min = 0, max = 0.001 }\n[[set]]\nname = \"A\"\ntubes = [1]\ncases = 3\n"
+      "[set.tube]\nradius = 0.0125\nmass = 0.5\nlength = 0.5\nbend_max_deg = 30\n");
+  return tanglebin::read_recipe(text, "recipe.toml");
+}
+
+void read_times_and_drawn_numbers(const tanglebin::Catalogue& catalogue) {
+  static const tanglebin::Recipe recipe = recipe_with_a_number_to_draw();
+  for (const tanglebin::CaseId& id : catalogue.cases()) {
+    catalogue.times(id);
+    resolve(recipe, catalogue.record(id).drawn);
+  }
+}
+
+// An InputError is an answer. The program prints it on one line.
+template <typename Read>
+void in_one_line(const Read& read) {
+  try {
+    read();
+  } catch (const tanglebin::InputError& error) {
+    if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -59,14 +86,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::ofstream(directory / "manifest.jsonl") << record << '\n';
   std::ofstream(directory / files[data[0] % files.size()], std::ios::binary)
       << std::string(data + 1, data + size);
-  try {
-    check_that_it_reads_back(tanglebin::Catalogue(directory), directory);
-    tanglebin::finished_cases(directory);
-    tanglebin::read_dataset_summary(directory);
-  } catch (const tanglebin::InputError& error) {
-    // The program prints it on one line.
-    if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
-  }
+  // Each reads the very bytes, whatever the others say of them.
+  in_one_line([&] { tanglebin::read_dataset_summary(directory); });
+  in_one_line([&] { tanglebin::finished_cases(directory); });
+  in_one_line([&] { read_times_and_drawn_numbers(tanglebin::Catalogue(directory)); });
+  in_one_line([&] { check_that_it_reads_back(tanglebin::Catalogue(directory), directory); });
+  // What passes damage over writes a dataset.
+  using Damage = tanglebin::Catalogue::Damage;
+  check_that_it_reads_back(tanglebin::Catalogue(directory, Damage::is_passed_over), directory);
   fs::remove_all(directory);
   return 0;
 }

@@ -14,7 +14,7 @@ std::string message(const InputPlace& place, const std::string& problem) {
 }  // namespace
 
 InputError::InputError(const InputPlace& place, const std::string& problem)
-    : std::runtime_error(message(place, problem)), place_(place) {}
+    : std::runtime_error(message(place, problem)), place_(place), problem_(problem) {}
 
 InputError::InputError(const InputPlace& place, const std::string& found, const std::string& expected)
     : InputError(place, "found " + found + ", expected " + expected) {}

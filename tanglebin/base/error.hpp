@@ -22,8 +22,12 @@ public:
 
   const InputPlace& place() const noexcept { return place_; }
 
+  /// what() without the place.
+  const std::string& problem() const noexcept { return problem_; }
+
 private:
   InputPlace place_;
+  std::string problem_;
 };
 
 }  // namespace tanglebin

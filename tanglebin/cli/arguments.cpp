@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -63,8 +64,7 @@ void write_output(const std::string& file, std::string_view bytes) {
     write_file(file, bytes);
     return;
   }
-  std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-  if (!std::cout) throw InputError({"standard output", 0, ""}, "cannot be written");
+  std::fwrite(bytes.data(), 1, bytes.size(), stdout);  // main() sees whether it is written
 }
 
 Range parse_range(std::string_view text, const std::string& option) {

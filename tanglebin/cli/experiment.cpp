@@ -12,6 +12,7 @@
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/many_cases.hpp"
+#include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/experiment/run_experiment.hpp"
 #include "tanglebin/experiment/summary.hpp"
@@ -63,7 +64,7 @@ void print_json(const ExperimentArguments& arguments, const ExperimentSummary& s
                                     {"cases", mean.cases},
                                     {"mean", mean.mean}});
   }
-  fmt::print("{}\n", json.dump());
+  print_out("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 // A line for each method and set.
@@ -72,26 +73,26 @@ void print_means(const std::vector<MeanMicroRecall>& means) {
     return a.method == b.method && a.set == b.set;
   };
   for (auto mean = means.begin(); mean != means.end();) {
-    fmt::print("{}, set {}:", name_of(mean->method), mean->set);
+    print_out("{}, set {}:", name_of(mean->method), mean->set);
     const auto first = mean;
     for (; mean != means.end() && same_line(*first, *mean); ++mean) {
-      fmt::print("{} {:.3f} ({} {})", mean == first ? "" : ",", mean->mean, mean->tubes,
-                 mean->tubes == 1 ? "tube" : "tubes");
+      print_out("{} {:.3f} ({} {})", mean == first ? "" : ",", mean->mean, mean->tubes,
+                mean->tubes == 1 ? "tube" : "tubes");
     }
-    fmt::print("\n");
+    print_out("\n");
   }
 }
 
 void print_text(const ExperimentArguments& arguments, const ExperimentSummary& summary,
                 const std::vector<MeanMicroRecall>& means, double ratio, double seconds) {
-  if (!means.empty()) fmt::print("mean micro-recall at ratio {}\n", ratio);
+  if (!means.empty()) print_out("mean micro-recall at ratio {}\n", ratio);
   print_means(means);
   const RunProgress& run = summary.progress;
-  fmt::print("{}: {} cases modelled in {:.1f} s, {} were there{}\n", arguments.out, run.made, seconds,
-             run.found,
-             summary.was_stopped()
-                 ? fmt::format("; stopped, {} to go", run.wanted - run.found - run.made - run.failed)
-                 : "");
+  print_out("{}: {} cases modelled in {:.1f} s, {} were there{}\n", arguments.out, run.made, seconds,
+            run.found,
+            summary.was_stopped()
+                ? fmt::format("; stopped, {} to go", run.wanted - run.found - run.made - run.failed)
+                : "");
 }
 
 void experiment(const ExperimentArguments& arguments) {
@@ -107,12 +108,11 @@ void experiment(const ExperimentArguments& arguments) {
   }();
   if (summary.is_complete()) write_pictures(arguments.out, dataset, settings);
   const double ratio = ratio_to_show(settings.ratios);
-  const auto print = arguments.json || arguments.progress == ProgressStyle::json ? print_json : print_text;
-  print(arguments, summary, mean_micro_recalls(read_results(arguments.out), ratio), ratio,
-        seconds_since(start));
+  const auto report = arguments.json || arguments.progress == ProgressStyle::json ? print_json : print_text;
+  report(arguments, summary, mean_micro_recalls(read_results(arguments.out), ratio), ratio,
+         seconds_since(start));
   for (const FailedModel& failed : summary.failed) {
-    fmt::print(stderr, "tanglebin: {}/{}: failed: {}\n", folder_name(failed.id.set, failed.id.tubes),
-               failed.id.number, failed.reason);
+    print_error("tanglebin: {}: failed: {}\n", name_of(failed.id), failed.reason);
   }
   if (summary.was_stopped()) throw CLI::RuntimeError(exit_interrupted);
   if (!summary.failed.empty()) throw CLI::RuntimeError(exit_cases_failed);

@@ -1,11 +1,10 @@
 #include "tanglebin/cli/fill_report.hpp"
 
-#include <fmt/core.h>
-
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "tanglebin/cli/many_cases.hpp"
+#include "tanglebin/cli/print.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -28,22 +27,27 @@ nlohmann::ordered_json json_of(const FillReport& report, const FillSummary& summ
   return json;
 }
 
+// A directory's name may be any bytes.
+std::string text_of(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 void print_text(const FillReport& report, const FillSummary& summary, double seconds) {
   const RunProgress& run = summary.progress;
   const DatasetSummary& dataset = summary.dataset;
-  fmt::print("{}: {} cases {} in {:.1f} s ({} attempts rejected), {} were there", report.directory, run.made,
-             report.verb, seconds, run.rejected, run.found);
-  if (run.failed > 0) fmt::print(", {} failed", run.failed);
+  print_out("{}: {} cases {} in {:.1f} s ({} attempts rejected), {} were there", report.directory, run.made,
+            report.verb, seconds, run.rejected, run.found);
+  if (run.failed > 0) print_out(", {} failed", run.failed);
   if (summary.was_stopped()) {
-    fmt::print("; stopped, {} to go", run.wanted - run.found - run.made - run.failed);
+    print_out("; stopped, {} to go", run.wanted - run.found - run.made - run.failed);
   }
-  fmt::print("\n{}: ", report.directory);
+  print_out("\n{}: ", report.directory);
   if (dataset.is_complete()) {
-    fmt::print("complete, {} cases", dataset.cases);
+    print_out("complete, {} cases", dataset.cases);
   } else {
-    fmt::print("{} of the recipe's {} cases", dataset.cases, dataset.recipe_cases);
+    print_out("{} of the recipe's {} cases", dataset.cases, dataset.recipe_cases);
   }
-  fmt::print(", digest {}\n", dataset.digest);
+  print_out(", digest {}\n", dataset.digest);
 }
 
 }  // namespace
@@ -52,15 +56,14 @@ void report_fill(const FillReport& report, const FillSummary& summary, double se
   if (report.progress == ProgressStyle::json) {
     nlohmann::ordered_json event{{"event", "end"}};
     event.update(json_of(report, summary, seconds));
-    fmt::print("{}\n", event.dump());
+    print_out("{}\n", text_of(event));
   } else if (report.json) {
-    fmt::print("{}\n", json_of(report, summary, seconds).dump());
+    print_out("{}\n", text_of(json_of(report, summary, seconds)));
   } else {
     print_text(report, summary, seconds);
   }
   for (const FailedCase& failed : summary.failed) {
-    fmt::print(stderr, "tanglebin: {}/{}: failed: {} (seed {:016x})\n",
-               folder_name(failed.id.set, failed.id.tubes), failed.id.number, failed.reason, failed.seed);
+    print_error("tanglebin: {}: failed: {} (seed {:016x})\n", name_of(failed.id), failed.reason, failed.seed);
   }
   if (summary.was_stopped()) throw CLI::RuntimeError(exit_interrupted);
   if (!summary.failed.empty()) throw CLI::RuntimeError(exit_cases_failed);

@@ -1,12 +1,19 @@
-#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
 #include <exception>
+#include <iostream>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/print.hpp"
 
 namespace {
+
+using tanglebin::cli::print_error;
 
 constexpr int exit_internal_error = 1;
 constexpr int exit_bad_input = 2;
@@ -38,16 +45,37 @@ int run(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
+// What can be wrong with a pipe is that nobody reads it any more, which is the reader's wish.
+bool is_pipe(int descriptor) {
+  struct stat status {};
+  return fstat(descriptor, &status) == 0 && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
+}
 
-int main(int argc, char** argv) {
+bool is_output_lost() {
+  std::cout.flush();
+  const bool is_lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  return is_lost && !is_pipe(STDOUT_FILENO);
+}
+
+int run_and_explain(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const tanglebin::InputError& error) {
-    fmt::print(stderr, "tanglebin: {}\n", error.what());
+    print_error("tanglebin: {}\n", error.what());
     return exit_bad_input;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "tanglebin: {}\n", error.what());
+    print_error("tanglebin: {}\n", error.what());
     return exit_internal_error;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // Where the program that reads the output ends, this one goes on: it has more to do than to print.
+  std::signal(SIGPIPE, SIG_IGN);
+  const int status = run_and_explain(argc, argv);
+  if (!is_output_lost()) return status;
+  print_error("tanglebin: standard output: cannot write all of it\n");
+  return exit_bad_input;
 }

@@ -1,7 +1,5 @@
 #include "tanglebin/model/model.hpp"
 
-#include <fmt/core.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -15,6 +13,7 @@
 
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/print.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
 #include "tanglebin/cloud/pcd.hpp"
 #include "tanglebin/cloud/ply.hpp"
@@ -95,12 +94,12 @@ void print_summary(const ModelArguments& arguments, const KnownScene& known, con
       json["steps"].push_back(
           {{"name", step.name}, {"seconds", step.seconds}, {"count", step.count}, {"of", step.of}});
     }
-    fmt::print("{}\n", json.dump());
+    print_out("{}\n", json.dump());
     return;
   }
   if (arguments.radius == "auto") fmt::print("radius   {:>8.5f} m\n", known.radius);
   for (const Step& step : model.steps) {
-    fmt::print("{:<8} {:>8.3f} s  {:>7} {}\n", step.name, step.seconds, step.count, step.of);
+    print_out("{:<8} {:>8.3f} s  {:>7} {}\n", step.name, step.seconds, step.count, step.of);
   }
 }
 

@@ -12,12 +12,12 @@
 #include <system_error>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cloud/read_cloud.hpp"
 #include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/dataset/excerpt.hpp"
 #include "tanglebin/dataset/images.hpp"
-#include "tanglebin/dataset/safe_file.hpp"
 #include "tanglebin/report/picture.hpp"
 
 namespace tanglebin::cli {
@@ -74,19 +74,10 @@ Picture draw_file(const std::string& file, const Options& options) {
   return draw(in, file, options);
 }
 
-void write(const std::string& out, const std::string& bytes) {
-  if (out != "-") return write_file(out, bytes);
-  std::cout << bytes << std::flush;
-  if (!std::cout) {
-    throw InputError({.file = "standard output", .line = 0, .field = ""},
-                     "cannot write: " + std::generic_category().message(errno));
-  }
-}
-
 void run(const Options& options) {
   const Picture picture =
       options.input == "-" ? draw(std::cin, "standard input", options) : draw_file(options.input, options);
-  write(options.out, color_png(picture.width, picture.height, picture.pixels));
+  write_output(options.out, color_png(picture.width, picture.height, picture.pixels));
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "tanglebin/cli/print.hpp"
+
 namespace tanglebin::cli {
 namespace {
 
@@ -21,7 +23,7 @@ std::size_t remaining(const RunProgress& progress) {
 
 // A program at the other end of a pipe is to have the event now.
 void print_event(const nlohmann::ordered_json& event) {
-  fmt::print("{}\n", event.dump());
+  print_out("{}\n", event.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   std::fflush(stdout);
 }
 
@@ -38,7 +40,7 @@ void add_progress_option(CLI::App& command, ProgressStyle& style) {
 }
 
 ProgressReport::~ProgressReport() {
-  if (is_shown_) fmt::print(stderr, "\n");
+  if (is_shown_) print_error("\n");
 }
 
 RunObserver ProgressReport::observer() {
@@ -56,15 +58,15 @@ double ProgressReport::rate(const RunProgress& progress) const {
 }
 
 void ProgressReport::show_line(const RunProgress& progress) {
-  fmt::print(stderr, "\r{} of {} cases", progress.found + done(progress), progress.wanted);
+  std::string line = fmt::format("\r{} of {} cases", progress.found + done(progress), progress.wanted);
   if (done(progress) > 0) {
     const double pace = rate(progress);
-    fmt::print(stderr, ", {:.2g} a second, {} left", pace,
-               duration_text(static_cast<double>(remaining(progress)) / pace));
+    line += fmt::format(", {:.2g} a second, {} left", pace,
+                        duration_text(static_cast<double>(remaining(progress)) / pace));
   }
-  if (progress.rejected > 0) fmt::print(stderr, ", {} attempts rejected", progress.rejected);
-  if (progress.failed > 0) fmt::print(stderr, ", {} cases failed", progress.failed);
-  fmt::print(stderr, " \x1b[K");
+  if (progress.rejected > 0) line += fmt::format(", {} attempts rejected", progress.rejected);
+  if (progress.failed > 0) line += fmt::format(", {} cases failed", progress.failed);
+  print_error("{} \x1b[K", line);
   is_shown_ = true;
 }
 

@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -14,6 +12,7 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/print.hpp"
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/cloud/pcd.hpp"
 #include "tanglebin/cloud/ply.hpp"
@@ -70,13 +69,13 @@ void print_summary(const ScanArguments& arguments, const Scan& view, const std::
     for (const Tube& tube : tubes) {
       json["tubes"].push_back({{"label", tube.id}, {"points", points[static_cast<std::size_t>(tube.id)]}});
     }
-    fmt::print("{}\n", json.dump());
+    print_out("{}\n", json.dump());
     return;
   }
   std::size_t tube_points = 0;
   for (const Tube& tube : tubes) tube_points += points[static_cast<std::size_t>(tube.id)];
-  fmt::print("{}: {} points on {} tubes, {} on the bin{}\n", arguments.out, tube_points, tubes.size(),
-             points[bin_label], arguments.with_bin ? "" : " (left out)");
+  print_out("{}: {} points on {} tubes, {} on the bin{}\n", arguments.out, tube_points, tubes.size(),
+            points[bin_label], arguments.with_bin ? "" : " (left out)");
 }
 
 void scan_configuration(const ScanArguments& arguments) {

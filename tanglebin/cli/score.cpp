@@ -16,6 +16,7 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/print.hpp"
 #include "tanglebin/cloud/read_cloud.hpp"
 #include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/scan/scan.hpp"
@@ -98,23 +99,23 @@ nlohmann::ordered_json tubes_json(const TubesScore& score) {
 }
 
 void print_tubes(const Score& score) {
-  fmt::print("\n{:>8} {:>9} {:>8} {:>9} {:>9} {:>6}\n", "tube", "points", "label", "correct", "null", "IoU");
+  print_out("\n{:>8} {:>9} {:>8} {:>9} {:>9} {:>6}\n", "tube", "points", "label", "correct", "null", "IoU");
   for (const TubeScore& tube : score.tubes) {
-    fmt::print("{:>8} {:>9} {:>8} {:>9} {:>9} {:>6.3f}\n", tube.label, tube.points,
-               tube.assigned ? std::to_string(*tube.assigned) : "none", tube.correct_points, tube.null_points,
-               tube.iou);
+    print_out("{:>8} {:>9} {:>8} {:>9} {:>9} {:>6.3f}\n", tube.label, tube.points,
+              tube.assigned ? std::to_string(*tube.assigned) : "none", tube.correct_points, tube.null_points,
+              tube.iou);
   }
 }
 
 void print_confusion(const Score& score) {
-  fmt::print("\n{:>8}", "label");
-  for (const Region& segment : score.confusion.segments) fmt::print(" {:>8}", segment.label);
-  fmt::print(" {:>8}\n", "null");
+  print_out("\n{:>8}", "label");
+  for (const Region& segment : score.confusion.segments) print_out(" {:>8}", segment.label);
+  print_out(" {:>8}\n", "null");
   const auto rows = confusion_matrix(score);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    fmt::print("{:>8}", fmt::format("tube {}", score.tubes[i].label));
-    for (const std::int64_t points : rows[i]) fmt::print(" {:>8}", points);
-    fmt::print("\n");
+    print_out("{:>8}", fmt::format("tube {}", score.tubes[i].label));
+    for (const std::int64_t points : rows[i]) print_out(" {:>8}", points);
+    print_out("\n");
   }
 }
 
@@ -123,25 +124,25 @@ std::string millimetres(const std::optional<double>& metres) {
 }
 
 void print_tubes_score(const TubesScore& score) {
-  fmt::print("centre-line error    {}  95th percentile {}\n", millimetres(score.centre_line_error),
-             millimetres(score.centre_line_error_p95));
-  fmt::print("centre-line coverage {:.3f}\n", score.centre_line_coverage);
-  fmt::print("joins                {} of {} missing, {} of {} wrong\n", score.true_joins - score.joins_found,
-             score.true_joins, score.joins_made - score.joins_found, score.joins_made);
+  print_out("centre-line error    {}  95th percentile {}\n", millimetres(score.centre_line_error),
+            millimetres(score.centre_line_error_p95));
+  print_out("centre-line coverage {:.3f}\n", score.centre_line_coverage);
+  print_out("joins                {} of {} missing, {} of {} wrong\n", score.true_joins - score.joins_found,
+            score.true_joins, score.joins_made - score.joins_found, score.joins_made);
 }
 
 void print_text(const Score& score, const std::optional<TubesScore>& tubes_score) {
   const auto& [precision, recall, f1, panoptic_quality] = score.detection;
   const Instances& instances = score.instances;
-  fmt::print("micro-recall         {:.3f}  {} of {} points, {} null\n", score.micro_recall,
-             score.correct_points, score.points, score.null_points);
-  fmt::print("mean IoU             {:.3f}\n", score.mean_iou);
-  fmt::print("F1 at IoU 0.5        {:.3f}  precision {:.3f}, recall {:.3f}\n", f1, precision, recall);
-  fmt::print("panoptic quality     {:.3f}\n", panoptic_quality);
-  fmt::print("adjusted Rand index  {:.3f}\n", score.adjusted_rand_index);
-  fmt::print("{} tubes, {} labels: {} correct, {} over-segmented, {} under-segmented, {} missed, {} noise\n",
-             score.tubes.size(), score.confusion.segments.size(), instances.correct, instances.over_segmented,
-             instances.under_segmented, instances.missed, instances.noise);
+  print_out("micro-recall         {:.3f}  {} of {} points, {} null\n", score.micro_recall,
+            score.correct_points, score.points, score.null_points);
+  print_out("mean IoU             {:.3f}\n", score.mean_iou);
+  print_out("F1 at IoU 0.5        {:.3f}  precision {:.3f}, recall {:.3f}\n", f1, precision, recall);
+  print_out("panoptic quality     {:.3f}\n", panoptic_quality);
+  print_out("adjusted Rand index  {:.3f}\n", score.adjusted_rand_index);
+  print_out("{} tubes, {} labels: {} correct, {} over-segmented, {} under-segmented, {} missed, {} noise\n",
+            score.tubes.size(), score.confusion.segments.size(), instances.correct, instances.over_segmented,
+            instances.under_segmented, instances.missed, instances.noise);
   if (tubes_score) print_tubes_score(*tubes_score);
   print_tubes(score);
 }
@@ -169,7 +170,7 @@ void score_labels(const ScoreArguments& arguments) {
     nlohmann::ordered_json json = score_json(score);
     if (tubes_score) json.update(tubes_json(*tubes_score));
     if (arguments.confusion) json["confusion"] = confusion_json(score);
-    fmt::print("{}\n", json.dump());
+    print_out("{}\n", json.dump());
     return;
   }
   print_text(score, tubes_score);

@@ -7,6 +7,7 @@
 
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/many_cases.hpp"
+#include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/dataset/repair_dataset.hpp"
 #include "tanglebin/dataset/verify_dataset.hpp"
@@ -54,24 +55,29 @@ nlohmann::ordered_json json_of(const VerifyArguments& arguments, const VerifySum
 }
 
 void print_text(const VerifyArguments& arguments, const VerifySummary& summary, std::size_t repaired) {
-  for (const auto& [where, what] : summary.faults) fmt::print("{}: {}\n", where, what);
-  fmt::print("{}: {} of the recipe's {} cases, digest {}; ", arguments.dataset, summary.cases,
-             cases(summary.recipe).size(), summary.digest);
-  if (repaired > 0) fmt::print("{} cases made again, ", repaired);
-  fmt::print("{}\n", summary.was_stopped      ? "stopped"
-                     : summary.faults.empty() ? "nothing is wrong"
-                                              : fmt::format("{} faults", summary.faults.size()));
+  for (const auto& [where, what] : summary.faults) print_out("{}: {}\n", where, what);
+  print_out("{}: {} of the recipe's {} cases, digest {}; ", arguments.dataset, summary.cases,
+            cases(summary.recipe).size(), summary.digest);
+  if (repaired > 0) print_out("{} cases made again, ", repaired);
+  print_out("{}\n", summary.was_stopped      ? "stopped"
+                    : summary.faults.empty() ? "nothing is wrong"
+                                             : fmt::format("{} faults", summary.faults.size()));
 }
 
 void verify_and_report(const VerifyArguments& arguments) {
   VerifySummary summary = verify(arguments);
   std::size_t repaired = 0;
   if (arguments.repair && !summary.faults.empty() && !summary.was_stopped) {
-    repaired = repair(arguments, summary).progress.made;
-    summary = verify(arguments);
+    const FillSummary repair_run = repair(arguments, summary);
+    repaired = repair_run.progress.made;
+    if (repair_run.was_interrupted) {
+      summary.was_stopped = true;
+    } else {
+      summary = verify(arguments);
+    }
   }
   if (arguments.json || arguments.progress == ProgressStyle::json) {
-    fmt::print(
+    print_out(
         "{}\n",
         json_of(arguments, summary, repaired).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {

@@ -54,6 +54,29 @@ void add_images(const Recipe& recipe, const CaseId& id, const std::string& scann
 
 }  // namespace
 
+std::vector<std::string> paths_of(const Recipe& recipe, const CaseId& id) {
+  const OutputSettings& output = recipe.output;
+  std::vector<std::string> paths;
+  for (const Scanner& scanner : scanners(recipe)) {
+    const auto add = [&](std::string_view kind, std::string_view extension) {
+      paths.push_back(file_of(id, kind, extension, scanner.name));
+    };
+    const bool is_first = paths.empty();
+    add("plys", "ply");
+    if (is_first) {
+      paths.push_back(file_of(id, "tube_configurations", "txt"));
+      if (output.worlds) paths.push_back(file_of(id, "gazebo_worlds", "world"));
+    }
+    if (output.pcds) add("pcds", "pcd");
+    if (output.depths) {
+      add("depths", "png");
+      add("depths", "json");
+    }
+    if (output.labels) add("labels", "png");
+  }
+  return paths;
+}
+
 std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const Scene& scene) {
   std::vector<CaseFile> files;
   const auto add = [&](std::string_view kind, std::string_view extension, std::string bytes) {

@@ -15,6 +15,9 @@ struct CaseFile {
   std::string bytes;  ///< all of it
 };
 
+/// The paths of a case's files: those of case_files(), in its order.
+std::vector<std::string> paths_of(const Recipe& recipe, const CaseId& id);
+
 /// The files of a case, those that recipe.output asks for (docs/formats.md), of each of the recipe's
 /// scanners; the recipe is the scene's, without random numbers.
 std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const Scene& scene);

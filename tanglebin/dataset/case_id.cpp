@@ -18,6 +18,10 @@ std::string folder_name(std::string_view set, int tubes) {
   return fmt::format("{}{}", set, tubes);
 }
 
+std::string name_of(const CaseId& id) {
+  return fmt::format("{}/{}", folder_name(id.set, id.tubes), id.number);
+}
+
 std::string file_of(const CaseId& id, std::string_view kind, std::string_view extension,
                     std::string_view scanner) {
   return fmt::format("{}/{}{}{}/{}.{}", folder_name(id.set, id.tubes), scanner, scanner.empty() ? "" : "/",

@@ -25,6 +25,9 @@ std::vector<CaseId> cases(const Recipe& recipe);
 /// The folder of the cases of one set and number of tubes, as in the published data: "A10".
 std::string folder_name(std::string_view set, int tubes);
 
+/// "A10/3".
+std::string name_of(const CaseId& id);
+
 /// A file of a case, relative to the dataset's directory: "A10/plys/1.ply", or of a scanner that has a name
 /// "A10/left/plys/1.ply".
 std::string file_of(const CaseId& id, std::string_view kind, std::string_view extension,

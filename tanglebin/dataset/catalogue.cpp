@@ -7,7 +7,8 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/finished_cases.hpp"
 #include "tanglebin/dataset/journal.hpp"
-#include "tanglebin/dataset/json_line.hpp"
+#include "tanglebin/dataset/json_record.hpp"
+#include "tanglebin/dataset/read_file.hpp"
 #include "tanglebin/dataset/safe_file.hpp"
 
 namespace tanglebin {
@@ -24,7 +25,7 @@ CaseId id_of_line(std::string_view line, const std::string& file, std::size_t nu
     end = line.find_first_of(",}", from);
     from = end == std::string_view::npos ? end : end + 1;
   }
-  return read_json_line(std::string(line.substr(0, end)) + '}', file, number, id_from);
+  return JsonRecord(std::string(line.substr(0, end)) + '}', file, number).id();
 }
 
 }  // namespace
@@ -37,9 +38,8 @@ std::string to_json(const FailedCase& failed) {
 }
 
 FailedCase failed_case(const std::string& json, const std::string& file, std::size_t line) {
-  return read_json_line(json, file, line, [](const Json& value) {
-    return FailedCase{id_from(value), seed_from(value.at("seed")), value.at("reason").get<std::string>()};
-  });
+  const JsonRecord value(json, file, line);
+  return {value.id(), value.seed("seed"), value.text("reason")};
 }
 
 /// Fetches lines from where they are.
@@ -47,63 +47,72 @@ class Catalogue::Reader {
 public:
   explicit Reader(const std::vector<fs::path>& files) {
     files_.reserve(files.size());
-    for (const fs::path& file : files) files_.push_back({file, {}});
+    for (const fs::path& file : files) files_.push_back({file, std::nullopt});
   }
 
   std::string line(const Place& place) {
     std::string line(place.size, '\0');
     auto& [file, in] = files_[place.file];
-    if (!in.is_open()) in.open(file, std::ios::binary);
-    in.seekg(static_cast<std::streamoff>(place.offset));
-    in.read(line.data(), static_cast<std::streamsize>(line.size()));
+    if (!in) in = open_if_there(file);
+    if (!in) throw InputError({file.string(), place.line, ""}, "is no longer there");
+    in->seekg(static_cast<std::streamoff>(place.offset));
+    in->read(line.data(), static_cast<std::streamsize>(line.size()));
+    expect_read(*in, file);
+    if (!*in) throw InputError({file.string(), place.line, ""}, "is shorter than it was");
     return line;
   }
 
 private:
   struct File {
     fs::path path;
-    std::ifstream in;
+    std::optional<std::ifstream> in;
   };
   std::vector<File> files_;
 };
 
 template <typename Take>
-void Catalogue::read_lines(const fs::path& file, const Take& take) {
+void Catalogue::read_lines(const fs::path& file, Damage damage, const Take& take) {
   const std::size_t index = files_.size();
   files_.push_back(file);
   std::uint64_t offset = 0;
-  for_each_whole_line(file, [&](const std::string& line, std::size_t number) {
+  const auto for_each_line = damage == Damage::is_error ? for_each_whole_line : for_each_readable_line;
+  for_each_line(file, [&](const std::string& line, std::size_t number) {
     const Place place{index, offset, line.size(), number};
     offset += line.size() + 1;
-    try {
-      take(line, place);
-    } catch (const InputError&) {
-      if (damage_ == Damage::is_error) throw;
-    }
+    take(line, place);
   });
 }
 
-Catalogue::Catalogue(const fs::path& directory, Damage damage) : directory_(directory), damage_(damage) {
-  const auto id_of = [&](const std::string& line, const Place& place) {
-    return id_of_line(line, files_[place.file].string(), place.line);
-  };
-  read_lines(directory / manifest_name, [&](const std::string& line, const Place& place) {
-    places_[id_of(line, place)].record = place;
+Catalogue::Catalogue(const fs::path& directory, Damage damage)
+    : Catalogue(directory, damage, journals_in(directory)) {}
+
+Catalogue::Catalogue(const fs::path& directory, Damage damage, const std::vector<fs::path>& journals)
+    : directory_(directory) {
+  // What is to be passed over is found out now; otherwise a line is read when it is needed.
+  const bool reads_all = damage == Damage::is_passed_over;
+  const std::string manifest = (directory / manifest_name).string();
+  read_lines(manifest, damage, [&](const std::string& line, const Place& place) {
+    const CaseId id =
+        reads_all ? case_record(line, manifest, place.line).id : id_of_line(line, manifest, place.line);
+    places_[id].record = place;
   });
-  read_lines(directory / times_name, [&](const std::string& line, const Place& place) {
-    const auto found = places_.find(id_of(line, place));
+  const std::string times = (directory / times_name).string();
+  read_lines(times, damage, [&](const std::string& line, const Place& place) {
+    const CaseId id =
+        reads_all ? times_record(line, times, place.line).id : id_of_line(line, times, place.line);
+    const auto found = places_.find(id);
     if (found != places_.end()) found->second.times = place;
   });
-  read_lines(directory / failed_name, [&](const std::string& line, const Place& place) {
-    add(failed_case(line, files_[place.file].string(), place.line));
+  const std::string failed = (directory / failed_name).string();
+  read_lines(failed, damage, [&](const std::string& line, const Place& place) {
+    add(failed_case(line, failed, place.line));
   });
-  for (const fs::path& journal : journals_in(directory)) read_journal(journal);
+  for (const fs::path& journal : journals) read_journal(journal);
   std::erase_if(failed_, [&](const auto& entry) { return has(entry.first); });
 }
 
 void Catalogue::read_journal(const fs::path& file) {
-  read_lines(file, [&](const std::string& line, const Place& place) {
-    has_journaled_ = true;
+  read_lines(file, Damage::is_passed_over, [&](const std::string& line, const Place& place) {
     const std::size_t middle = line.find(journal_separator);
     if (middle == std::string::npos) {
       add(failed_case(line, file.string(), place.line));
@@ -114,7 +123,8 @@ void Catalogue::read_journal(const fs::path& file) {
     Place times = place;
     times.offset += middle + 1;
     times.size -= middle + 1;
-    places_[id_of_line(line, file.string(), place.line)] = {record, times};
+    times_record(line.substr(middle + 1), file.string(), place.line);
+    places_[case_record(line.substr(0, middle), file.string(), place.line).id] = {record, times};
   });
 }
 

@@ -29,17 +29,17 @@ FailedCase failed_case(const std::string& json, const std::string& file, std::si
 /// only where the lines are, so that it is small whatever the dataset is.
 class Catalogue {
 public:
-  /// What to do with a line that is not about a case.
+  /// What to do with a line of manifest, times or failures that cannot be read.
   enum class Damage { is_error, is_passed_over };
 
-  /// Reads them. A last line that was cut off is passed over. Throws InputError for any other that is not
-  /// about a case, unless damage is passed over, too.
+  /// Reads them, all journals or these only. A last line that was cut off is passed over, and so is what
+  /// cannot be read in a journal. Throws InputError for any other line that is not about a case, unless
+  /// damage is passed over, and for a file that cannot be read.
   explicit Catalogue(const std::filesystem::path& directory, Damage damage = Damage::is_error);
+  Catalogue(const std::filesystem::path& directory, Damage damage,
+            const std::vector<std::filesystem::path>& journals);
 
   bool has(const CaseId& id) const { return places_.contains(id); }
-
-  /// Whether journals have cases that manifest or failures have not.
-  bool has_journaled() const { return has_journaled_; }
 
   /// Cases that failed and are not there.
   const std::map<CaseId, FailedCase>& failed() const { return failed_; }
@@ -79,14 +79,12 @@ private:
 
   void read_journal(const std::filesystem::path& file);
   template <typename Take>
-  void read_lines(const std::filesystem::path& file, const Take& take);
+  void read_lines(const std::filesystem::path& file, Damage damage, const Take& take);
 
   std::filesystem::path directory_;
-  Damage damage_;
   std::vector<std::filesystem::path> files_;
   std::map<CaseId, Places> places_;
   std::map<CaseId, FailedCase> failed_;
-  bool has_journaled_ = false;
 };
 
 }  // namespace tanglebin

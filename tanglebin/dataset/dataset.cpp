@@ -3,29 +3,21 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cloud/ply.hpp"
 #include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/dataset/read_file.hpp"
+#include "tanglebin/dataset/safe_file.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 
 namespace tanglebin {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw InputError({file.string(), 0, ""}, fmt::format("cannot be opened: {}", std::strerror(errno)));
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// A file of a case, whole as it was written, and its name for messages.
 struct CheckedFile {
@@ -47,20 +39,28 @@ CheckedFile open_checked(const Dataset& dataset, const CaseId& id, std::string_v
 
 Dataset read_dataset(const fs::path& directory) {
   const fs::path file = directory / "recipe.toml";
-  const std::string text = bytes_of(file);
+  const std::string text = read_file(file);
   std::istringstream in(text);
   return {directory, read_recipe(in, file.string()), sha256(text), finished_cases(directory)};
 }
 
 std::string checked_bytes(const fs::path& directory, const FileRecord& file) {
   const fs::path path = directory / file.path;
-  std::string bytes = bytes_of(path);
+  const auto expect_size = [&](std::uintmax_t found) {
+    if (found == file.bytes) return;
+    throw InputError({path.string(), 0, "bytes"}, fmt::format("{}", found),
+                     fmt::format("{}, as the manifest says", file.bytes));
+  };
+  expect_below(directory, path);
+  // A file that is much larger than it is to be is not read, nor is a pipe waited for.
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (error) throw InputError({path.string(), 0, ""}, "cannot be opened: " + error.message());
+  expect_size(size);
+  std::string bytes = read_file(path, file.bytes + 1);
+  expect_size(bytes.size());
   if (const std::string found = sha256(bytes); found != file.sha256) {
     throw InputError({path.string(), 0, "sha256"}, found, file.sha256 + ", as the manifest says");
-  }
-  if (bytes.size() != file.bytes) {
-    throw InputError({path.string(), 0, "bytes"}, fmt::format("{}", bytes.size()),
-                     fmt::format("{}, as the manifest says", file.bytes));
   }
   return bytes;
 }

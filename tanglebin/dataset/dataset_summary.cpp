@@ -1,9 +1,7 @@
 #include "tanglebin/dataset/dataset_summary.hpp"
 
-#include <fstream>
-#include <iterator>
-
-#include "tanglebin/dataset/json_line.hpp"
+#include "tanglebin/dataset/json_record.hpp"
+#include "tanglebin/dataset/read_file.hpp"
 
 namespace tanglebin {
 
@@ -29,21 +27,18 @@ std::string to_json(const DatasetSummary& summary) {
 
 std::optional<DatasetSummary> read_dataset_summary(const std::filesystem::path& directory) {
   const std::filesystem::path file = directory / "dataset.json";
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return read_json_line(text, file.string(), 0, [](const Json& json) {
-    DatasetSummary summary{
-        integer_from<std::size_t>(json.at("cases")),  integer_from<std::size_t>(json.at("recipe_cases")),
-        integer_from<std::size_t>(json.at("failed")), integer_from<std::size_t>(json.at("files")),
-        json.at("digest").get<std::string>(),         {}};
-    for (const Json& versions : json.at("made_with")) {
-      Versions names;
-      for (const auto& [name, version] : versions.items()) names[name] = version.get<std::string>();
-      summary.made_with.insert(std::move(names));
-    }
-    return summary;
-  });
+  const std::optional<std::string> text = read_if_there(file);
+  if (!text) return std::nullopt;
+  const JsonRecord json(*text, file.string(), 0);
+  DatasetSummary summary{json.whole_number("cases"),  json.whole_number("recipe_cases"),
+                         json.whole_number("failed"), json.whole_number("files"),
+                         json.text("digest"),         {}};
+  for (const JsonRecord& versions : json.objects("made_with")) {
+    Versions names;
+    for (const std::string& name : versions.fields()) names[name] = versions.text(name);
+    summary.made_with.insert(std::move(names));
+  }
+  return summary;
 }
 
 }  // namespace tanglebin

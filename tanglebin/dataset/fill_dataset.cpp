@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -20,28 +20,6 @@ namespace tanglebin {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// For the moments in which a run reads or writes what runs of other names read or write, too.
-class DirectoryLock {
-public:
-  explicit DirectoryLock(const fs::path& directory) : file_(directory / ".lock"), lock_(take(file_)) {}
-  ~DirectoryLock() {
-    std::error_code ignored;
-    fs::remove(file_, ignored);
-  }
-  DirectoryLock(const DirectoryLock&) = delete;
-  DirectoryLock& operator=(const DirectoryLock&) = delete;
-
-private:
-  static FileLock take(const fs::path& file) {
-    constexpr std::chrono::minutes patience{5};
-    if (std::optional<FileLock> lock = FileLock::take(file, patience)) return std::move(*lock);
-    throw InputError({file.string(), 0, ""}, "another run has kept it locked for minutes");
-  }
-
-  fs::path file_;
-  FileLock lock_;
-};
 
 std::string text_of(const Recipe& recipe) {
   std::ostringstream out;
@@ -78,7 +56,7 @@ public:
       end_after_an_error();
       throw;
     }
-    if (summary_.progress.made + summary_.progress.failed > 0) summary_.dataset = fold();
+    if (summary_.progress.made + summary_.progress.failed > 0) summary_.dataset = fold_at_the_end();
     return std::move(summary_);
   }
 
@@ -86,6 +64,7 @@ private:
   void begin() {
     const DirectoryLock lock(request_.directory);
     claim(request_.directory, request_.recipe, journal_.staging());
+    const std::vector<Journal> abandoned = abandoned_journals(request_.directory);
     Catalogue before(request_.directory, damage());
     for (const CaseId& id : to_replace()) before.drop(id);
     for (const CaseId& id : request_.wanted) {
@@ -93,9 +72,26 @@ private:
     }
     summary_.progress.wanted = request_.wanted.size();
     summary_.progress.found = request_.wanted.size() - missing_.size();
-    const std::optional<DatasetSummary> known = read_dataset_summary(request_.directory);
-    const bool is_folded = known && !before.has_journaled() && !request_.repair && request_.failed.empty();
-    summary_.dataset = is_folded ? *known : fold_locked(to_replace());
+    const std::optional<DatasetSummary> known = known_summary();
+    const bool is_folded = known && std::ranges::includes(known->made_with, made_with()) &&
+                           journal_.is_empty() && abandoned.empty() && !request_.repair &&
+                           request_.failed.empty();
+    summary_.dataset = is_folded ? *known : fold(abandoned, to_replace());
+  }
+
+  // What this run adds to those that the dataset was made with.
+  std::set<Versions> made_with() const {
+    return missing_.empty() ? std::set<Versions>{} : request_.made_with;
+  }
+
+  // A repair writes a damaged one anew: all but the versions follows from the manifest.
+  std::optional<DatasetSummary> known_summary() const {
+    try {
+      return read_dataset_summary(request_.directory);
+    } catch (const InputError&) {
+      if (!request_.repair) throw;
+      return std::nullopt;
+    }
   }
 
   std::vector<CaseId> to_replace() const { return request_.repair.value_or(std::vector<CaseId>{}); }
@@ -111,32 +107,28 @@ private:
         .failed = [this](const TaskFailure& failure) { record(failure); },
         .tick = [this] { observer_.progress(summary_.progress); },
     };
-    run_in_workers(
-        request_.jobs, missing_.size(),
-        [&](std::size_t task) {
-          const auto [record, times] = make_(missing_[task], writer);
-          return journal_line(record, times);
-        },
-        workers);
+    const Task make_case = [&](std::size_t task) {
+      const auto [record, times] = make_(missing_[task], writer);
+      return journal_line(record, times);
+    };
+    summary_.was_interrupted = !run_in_workers(request_.jobs, missing_.size(), make_case, workers);
   }
 
   // Names first, then the lines that say that they are there.
   void record(const std::vector<TaskResult>& results) {
     std::vector<std::string> lines;
     std::vector<CaseEvent> events;
-    std::set<fs::path> directories;
+    std::set<fs::path> folders;
     lines.reserve(results.size());
     events.reserve(results.size());
     for (const TaskResult& result : results) {
       const std::string line = result.text.substr(0, result.text.find(journal_separator));
       const CaseRecord made = case_record(line, "a worker", 0);
-      for (const FileRecord& file : made.files) {
-        directories.insert((request_.directory / file.path).parent_path());
-      }
+      for (const FileRecord& file : made.files) add_folders(file.path, folders);
       lines.push_back(result.text);
       events.push_back({made.id, result.seconds, made.rejections.size(), {}});
     }
-    for (const fs::path& directory : directories) sync_directory(directory);
+    for (const fs::path& folder : folders) sync_directory(request_.directory / folder);
     journal_.append(lines);
     for (const CaseEvent& event : events) {
       ++summary_.progress.made;
@@ -145,12 +137,20 @@ private:
     }
   }
 
+  // The folder that has the file's name, and, the first time, those that have the folders' names: another
+  // worker may have made them and not yet have waited for the disk.
+  void add_folders(const std::string& file, std::set<fs::path>& folders) {
+    fs::path folder = fs::path(file).parent_path();
+    folders.insert(folder);
+    if (!known_folders_.insert(folder).second) return;
+    while (!folder.empty()) {
+      folder = folder.parent_path();
+      folders.insert(folder);
+    }
+  }
+
   void record(const TaskFailure& failure) {
     const CaseId& id = missing_[failure.task];
-    if (failure.impossible && summary_.progress.found + summary_.progress.made == 0) {
-      throw InputError({"", 0, fmt::format("{}/{}", folder_name(id.set, id.tubes), id.number)},
-                       failure.reason);
-    }
     const std::uint64_t seed = attempt_seed(request_.recipe.seed, id.set, id.tubes, id.number, 1);
     summary_.failed.push_back({id, seed, failure.reason});
     journal_.append({to_json(summary_.failed.back())});
@@ -161,28 +161,30 @@ private:
   // What ended the run is the error to tell of; the journal keeps what cannot be written now.
   void end_after_an_error() {
     try {
-      fold();
+      fold_at_the_end();
     } catch (const std::exception&) {
       return;
     }
   }
 
-  DatasetSummary fold() {
+  DatasetSummary fold_at_the_end() {
     const DirectoryLock lock(request_.directory);
-    return fold_locked({});
+    return fold(abandoned_journals(request_.directory), {});
   }
 
-  // Moves what this run and runs that were cut off have in their journals to the manifest.
-  DatasetSummary fold_locked(const std::vector<CaseId>& to_drop) {
-    const std::vector<Journal> abandoned = abandoned_journals(request_.directory);
-    Catalogue all(request_.directory, damage());
+  // Moves what this run and runs that were cut off have in their journals to the manifest. The caller has the
+  // directory's lock.
+  DatasetSummary fold(const std::vector<Journal>& abandoned, const std::vector<CaseId>& to_drop) {
+    std::vector<fs::path> journals{journal_.file()};
+    for (const Journal& journal : abandoned) journals.push_back(journal.file());
+    Catalogue all(request_.directory, damage(), journals);
     for (const CaseId& id : to_drop) all.drop(id);
     for (const FailedCase& failed : request_.failed) all.add(failed);
-    std::set<Versions> made_with = request_.made_with;
-    if (const auto known = read_dataset_summary(request_.directory)) {
-      made_with.insert(known->made_with.begin(), known->made_with.end());
+    std::set<Versions> versions = made_with();
+    if (const auto known = known_summary()) {
+      versions.insert(known->made_with.begin(), known->made_with.end());
     }
-    DatasetSummary dataset = all.write(order_, made_with, journal_.staging());
+    DatasetSummary dataset = all.write(order_, versions, journal_.staging());
     journal_.clear();
     for (const Journal& journal : abandoned) journal.clear();
     return dataset;
@@ -194,6 +196,7 @@ private:
   std::vector<CaseId> order_;
   Journal journal_;
   std::vector<CaseId> missing_;
+  std::set<fs::path> known_folders_;  ///< of which the names are on the disk
   FillSummary summary_;
 };
 
@@ -221,6 +224,7 @@ CaseWriter::CaseWriter(fs::path directory, fs::path staging)
 
 FileRecord CaseWriter::write(const std::string& path, std::string_view bytes) const {
   make_directories((directory_ / path).parent_path());
+  expect_below(directory_, directory_ / path);
   write_staged(directory_ / path, bytes, staging_);
   return {path, bytes.size(), sha256(bytes)};
 }

@@ -51,9 +51,10 @@ struct FillRequest {
   std::filesystem::path directory;
   std::string name{};                ///< of the run: empty, or that of its shard
   int jobs = 1;                      ///< worker processes
-  std::set<Versions> made_with{};    ///< what dataset.json is to have
+  std::set<Versions> made_with{};    ///< what dataset.json is to have where cases are made
   std::vector<FailedCase> failed{};  ///< cases that are known to have failed elsewhere
-  /// Where it is set: cases to make again though they are there, and lines about no case are dropped.
+  /// Where it is set: cases to make again though they are there, and what cannot be read of the dataset is
+  /// dropped.
   std::optional<std::vector<CaseId>> repair{};
 };
 
@@ -62,6 +63,7 @@ struct FillSummary {
   RunProgress progress;
   std::vector<FailedCase> failed;  ///< of the cases asked for
   DatasetSummary dataset;          ///< all that the directory has now
+  bool was_interrupted = false;    ///< by SIGINT or SIGTERM, even if no case was left to make
 
   bool is_complete() const { return progress.found + progress.made == progress.wanted; }
   bool was_stopped() const { return progress.found + progress.made + progress.failed < progress.wanted; }
@@ -72,8 +74,8 @@ struct FillSummary {
 /// the disk with its line in the run's journal before the observer hears of it, so whatever ends the run, the
 /// next one goes on from there. Runs of different names may fill a directory at the same time. Returns early,
 /// with what is done, on SIGINT and SIGTERM. Throws InputError where the directory belongs to another recipe
-/// or to a run of the same name that is under way, where a file cannot be written, where making a case throws
-/// it, and where the first case of all is impossible: then so are the others.
+/// or to a run of the same name that is under way, where a file cannot be read or written, and where making a
+/// case throws it.
 FillSummary fill_dataset(const FillRequest& request, const MakeCase& make, const RunObserver& observer);
 
 }  // namespace tanglebin

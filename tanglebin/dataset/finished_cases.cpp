@@ -33,11 +33,13 @@ FinishedCases finished_cases(const std::filesystem::path& directory) {
     add(finished, times_record(line, times, number));
   });
   for (const std::filesystem::path& journal : journals_in(directory)) {
-    for_each_whole_line(journal, [&](const std::string& line, std::size_t number) {
+    for_each_readable_line(journal, [&](const std::string& line, std::size_t number) {
       const std::size_t middle = line.find(journal_separator);
       if (middle == std::string::npos) return;  // a case that failed
-      add(finished, case_record(line.substr(0, middle), journal.string(), number));
-      add(finished, times_record(line.substr(middle + 1), journal.string(), number));
+      CaseRecord record = case_record(line.substr(0, middle), journal.string(), number);
+      const TimesRecord took = times_record(line.substr(middle + 1), journal.string(), number);
+      add(finished, std::move(record));
+      add(finished, took);
     });
   }
   return finished;

@@ -43,13 +43,13 @@ std::vector<ScannerRecord> scanner_records(const Recipe& recipe, const Scene& sc
 // One case from the recipe to its files.
 MadeCase make_case(const Recipe& dataset_recipe, const CaseId& id, const CaseWriter& writer) {
   const std::vector<DrawnNumber> drawn = draw(dataset_recipe, id);
-  const Recipe recipe = resolve(dataset_recipe, drawn);
-  const Scene scene = [&] {
+  const auto [recipe, scene] = [&] {
     try {
-      return simulate(recipe, id);
-    } catch (const InputError& error) {  // no valid scene; the next case may have one
-      const std::string name = error.place().field + ": ";
-      throw TaskImpossible(std::string(error.what()).substr(name.size()));
+      Recipe resolved = resolve(dataset_recipe, drawn);
+      Scene simulated = simulate(resolved, id);
+      return std::pair{std::move(resolved), std::move(simulated)};
+    } catch (const InputError& error) {  // no valid recipe or scene; the next case may have one
+      throw TaskImpossible(error.problem());
     }
   }();
 

@@ -18,14 +18,19 @@ namespace tanglebin {
 class Journal {
 public:
   /// Opens the journal `directory`/journal.jsonl, or journal-NAME.jsonl where there is a name ("2-of-8"), for
-  /// this process and those that it forks, with the lines that an earlier run left. Throws InputError where
-  /// another run has it, for longer than this one waits.
+  /// this process and those that it forks, with the whole lines that an earlier run left. Throws InputError
+  /// where another run has it for longer than this one waits: a few seconds, two minutes where it has a name.
   explicit Journal(const std::filesystem::path& directory, const std::string& name = {});
 
   /// Removes the directory for unfinished files, and the journal where it is empty.
   ~Journal();
   Journal(Journal&&) = default;
   Journal& operator=(Journal&&) = delete;
+
+  const std::filesystem::path& file() const { return file_; }
+
+  /// Whether it has no lines.
+  bool is_empty() const;
 
   /// A directory on the same disk for files that are not finished; empty at first.
   const std::filesystem::path& staging() const { return staging_; }
@@ -45,15 +50,21 @@ private:
   FileLock lock_;
 };
 
-/// The directory's journals, whoever has them.
+/// The directory's journals, whoever has them: files that are called as Journal calls them, and no symbolic
+/// links.
 std::vector<std::filesystem::path> journals_in(const std::filesystem::path& directory);
 
 /// Those of runs that were cut off.
 std::vector<Journal> abandoned_journals(const std::filesystem::path& directory);
 
 /// Calls `take` with every line of the file that has its end, and the line's number: a last line that was cut
-/// off is passed over. A file that is not there has no lines.
+/// off is passed over. A file that is not there has no lines; throws InputError for one that cannot be read.
 void for_each_whole_line(const std::filesystem::path& file,
                          const std::function<void(const std::string&, std::size_t)>& take);
+
+/// The same, but lines for which `take` throws InputError are passed over. So journals are read: after a
+/// power cut, lines that a run did not yet rely on may have any bytes, and their tasks are done again.
+void for_each_readable_line(const std::filesystem::path& file,
+                            const std::function<void(const std::string&, std::size_t)>& take);
 
 }  // namespace tanglebin

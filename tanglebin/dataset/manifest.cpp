@@ -3,22 +3,22 @@
 #include <algorithm>
 #include <string>
 
-#include "tanglebin/dataset/json_line.hpp"
+#include "tanglebin/dataset/excerpt.hpp"
+#include "tanglebin/dataset/json_record.hpp"
 
 namespace tanglebin {
 namespace {
 
 // A manifest from elsewhere must not make a program read or write outside of the dataset's directory.
-std::string path_from(const Json& json) {
-  auto text = json.get<std::string>();
+std::string path_from(const JsonRecord& entry) {
+  std::string text = entry.text("path");
   const std::filesystem::path path(text);
   const auto is_control = [](unsigned char character) { return character < 0x20 || character == 0x7f; };
   const bool is_below = path.is_relative() && path.has_filename() &&
                         text == path.lexically_normal().string() && *path.begin() != ".." &&
                         *path.begin() != ".";
   if (!is_below || std::ranges::any_of(text, is_control)) {
-    throw Json::other_error::create(501, "path is not below the dataset's directory: " + json.dump(),
-                                    nullptr);
+    entry.fail("path", excerpt(text), "a path below the dataset's directory");
   }
   return text;
 }
@@ -59,41 +59,38 @@ std::string to_json(const TimesRecord& record) {
 }
 
 CaseRecord case_record(const std::string& json, const std::string& file, std::size_t line) {
-  return read_json_line(json, file, line, [](const Json& value) {
-    CaseRecord record{id_from(value),
-                      seed_from(value.at("seed")),
-                      value.at("simulated").get<double>(),
-                      value.at("largest_overlap").get<double>(),
-                      integer_from<std::size_t>(value.at("points")),
-                      {},
-                      {}};
-    for (const Json& rejection : value.at("rejected")) {
-      record.rejections.push_back({seed_from(rejection.at("seed")), rejection.at("simulated").get<double>(),
-                                   rejection.at("fault").get<std::string>()});
+  const JsonRecord value(json, file, line);
+  CaseRecord record{value.id(),
+                    value.seed("seed"),
+                    value.number("simulated"),
+                    value.number("largest_overlap"),
+                    value.whole_number("points"),
+                    {},
+                    {}};
+  for (const JsonRecord& rejection : value.objects("rejected")) {
+    record.rejections.push_back(
+        {rejection.seed("seed"), rejection.number("simulated"), rejection.text("fault")});
+  }
+  for (const JsonRecord& entry : value.objects("files")) {
+    record.files.push_back({path_from(entry), entry.whole_number("bytes"), entry.text("sha256")});
+  }
+  if (value.has("scanners")) {
+    for (const JsonRecord& scanner : value.objects("scanners")) {
+      record.scanners.push_back({scanner.text("name"), scanner.whole_number("points")});
     }
-    for (const Json& entry : value.at("files")) {
-      record.files.push_back({path_from(entry.at("path")), integer_from<std::size_t>(entry.at("bytes")),
-                              entry.at("sha256").get<std::string>()});
-    }
-    for (const Json& scanner : value.value("scanners", Json::array())) {
-      record.scanners.push_back(
-          {scanner.at("name").get<std::string>(), integer_from<std::size_t>(scanner.at("points"))});
-    }
-    const Json drawn = value.value("drawn", Json::object());
-    for (const auto& [path, number] : drawn.items()) {
-      record.drawn.push_back({path, number.get<double>()});
-    }
-    return record;
-  });
+  }
+  if (value.has("drawn")) {
+    const JsonRecord drawn = value.object("drawn");
+    for (const std::string& path : drawn.fields()) record.drawn.push_back({path, drawn.number(path)});
+  }
+  return record;
 }
 
 TimesRecord times_record(const std::string& json, const std::string& file, std::size_t line) {
-  return read_json_line(json, file, line, [](const Json& value) {
-    return TimesRecord{id_from(value),
-                       {value.at("generate").get<double>(), value.at("settle").get<double>(),
-                        value.at("scan").get<double>(), value.at("write").get<double>()},
-                       value.at("peak_memory").get<double>()};
-  });
+  const JsonRecord value(json, file, line);
+  return {value.id(),
+          {value.number("generate"), value.number("settle"), value.number("scan"), value.number("write")},
+          value.number("peak_memory")};
 }
 
 }  // namespace tanglebin

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/case_files.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/finished_cases.hpp"
 
@@ -38,7 +39,7 @@ std::map<CaseId, const Part*> sources(const std::vector<Part>& parts, const std:
   for (const Part& part : parts) {
     const std::string manifest = (part.directory / manifest_name).string();
     for (const CaseId& id : part.catalogue.cases()) {
-      const std::string name = fmt::format("{}/{}", folder_name(id.set, id.tubes), id.number);
+      const std::string name = name_of(id);
       if (!known.contains(id)) throw InputError({manifest, 0, name}, "not a case of the recipe");
       const auto [other, is_new] = sources.try_emplace(id, &part);
       if (is_new) continue;
@@ -51,8 +52,18 @@ std::map<CaseId, const Part*> sources(const std::vector<Part>& parts, const std:
   return sources;
 }
 
-MadeCase copy_case(const Part& part, const CaseId& id, const CaseWriter& writer) {
+// What is written is what a run would have written.
+void expect_own_paths(const CaseRecord& record, const std::vector<std::string>& own,
+                      const fs::path& manifest) {
+  for (const FileRecord& file : record.files) {
+    if (std::ranges::find(own, file.path) != own.end()) continue;
+    throw InputError({manifest.string(), 0, name_of(record.id)}, file.path, "one of the case's own files");
+  }
+}
+
+MadeCase copy_case(const Part& part, const Recipe& recipe, const CaseId& id, const CaseWriter& writer) {
   const CaseRecord record = part.catalogue.record(id);
+  expect_own_paths(record, paths_of(recipe, id), part.directory / manifest_name);
   for (const FileRecord& file : record.files) {
     writer.write(file.path, checked_bytes(part.directory, file));
   }
@@ -81,7 +92,9 @@ FillSummary merge_datasets(const std::vector<fs::path>& parts, const fs::path& d
   }
   return fill_dataset(
       request,
-      [&](const CaseId& id, const CaseWriter& writer) { return copy_case(*source_of.at(id), id, writer); },
+      [&](const CaseId& id, const CaseWriter& writer) {
+        return copy_case(*source_of.at(id), request.recipe, id, writer);
+      },
       observer);
 }
 

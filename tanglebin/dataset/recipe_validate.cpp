@@ -122,8 +122,7 @@ void validate_scanner(const Scanner& scanner, const std::string& where) {
     validate(scanner.sensor);
   } catch (const InputError& error) {
     const std::string& field = error.place().field;
-    const std::string problem = std::string(error.what()).substr(field.size() + 2);
-    throw InputError({"", 0, where + field.substr(field.find('.'))}, problem);
+    throw InputError({"", 0, where + field.substr(field.find('.'))}, error.problem());
   }
 }
 

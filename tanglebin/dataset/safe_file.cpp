@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -28,6 +29,18 @@ std::error_code last_error() {
   return {errno, std::generic_category()};
 }
 
+std::error_code write_bytes(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      return last_error();
+    }
+  }
+  return {};
+}
+
 /// An open file descriptor.
 class Descriptor {
 public:
@@ -40,17 +53,7 @@ public:
 
   bool is_open() const { return descriptor_ >= 0; }
 
-  std::error_code write_all(std::string_view bytes) const {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-      if (written >= 0) {
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-      } else if (errno != EINTR) {
-        return last_error();
-      }
-    }
-    return {};
-  }
+  std::error_code write_all(std::string_view bytes) const { return write_bytes(descriptor_, bytes); }
 
   std::error_code sync() const { return ::fsync(descriptor_) == 0 ? std::error_code{} : last_error(); }
 
@@ -187,6 +190,22 @@ void make_directories(const std::filesystem::path& directory) {
     throw InputError({.file = blocked.string(), .line = 0, .field = {}}, "a file", "a directory");
   }
   fail(directory, "cannot make the directory", error);
+}
+
+void expect_below(const std::filesystem::path& directory, const std::filesystem::path& file) {
+  std::error_code error;
+  const fs::path top = fs::canonical(directory, error);
+  if (error) fail(directory, "cannot be opened", error);
+  const fs::path folder = fs::canonical(directory_of(file), error);
+  if (error) fail(file, "cannot be opened", error);
+  if (std::ranges::mismatch(top, folder).in1 != top.end()) {
+    throw InputError({.file = file.string(), .line = 0, .field = {}},
+                     "a folder that leads to " + folder.string(), "one below the dataset's directory");
+  }
+}
+
+void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& file) {
+  if (const std::error_code error = write_bytes(descriptor, bytes)) fail(file, "cannot write", error);
 }
 
 void sync_directory(const std::filesystem::path& directory) {

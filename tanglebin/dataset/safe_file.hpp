@@ -18,6 +18,13 @@ void write_file(const std::filesystem::path& file, std::string_view bytes);
 /// path that stands in the way and the reason.
 void make_directories(const std::filesystem::path& directory);
 
+/// Throws InputError where the folder of `file` is not below `directory` once symbolic links are followed.
+/// Both must be there.
+void expect_below(const std::filesystem::path& directory, const std::filesystem::path& file);
+
+/// Writes all of the bytes to an open file. Throws InputError with the file's name and the reason.
+void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& file);
+
 /// Waits until the names in the directory are on the disk, as they are of files that took theirs before.
 /// Throws InputError.
 void sync_directory(const std::filesystem::path& directory);

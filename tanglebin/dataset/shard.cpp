@@ -43,6 +43,11 @@ std::optional<Shard> slurm_shard(const Environment& environment) {
   const int count = required_number_in(environment, "SLURM_ARRAY_TASK_COUNT", who);
   const int first = required_number_in(environment, "SLURM_ARRAY_TASK_MIN", who);
   const int step = number_in(environment, "SLURM_ARRAY_TASK_STEP").value_or(1);
+  const int last = first + (count - 1) * step;
+  if (const int found = number_in(environment, "SLURM_ARRAY_TASK_MAX").value_or(last); found != last) {
+    throw InputError({"", 0, "SLURM_ARRAY_TASK_MAX"}, fmt::format("{}", found),
+                     fmt::format("{}, the last of {} numbers without a gap{}", last, count, remedy));
+  }
   const bool is_on_a_step = step > 0 && (*id - first) % step == 0;
   return checked({is_on_a_step ? (*id - first) / step + 1 : 0, count}, "SLURM_ARRAY_TASK_ID", *id);
 }

@@ -12,8 +12,10 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/random.hpp"
 #include "tanglebin/cloud/pcd.hpp"
 #include "tanglebin/cloud/ply.hpp"
+#include "tanglebin/dataset/case_files.hpp"
 #include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/settle/overlap.hpp"
@@ -24,34 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The kinds of files that the recipe gives to every case.
-std::vector<std::string_view> kinds_of(const OutputSettings& output) {
-  std::vector<std::string_view> kinds{"plys", "tube_configurations"};
-  if (output.worlds) kinds.emplace_back("gazebo_worlds");
-  if (output.pcds) kinds.emplace_back("pcds");
-  if (output.depths) kinds.emplace_back("depths");
-  if (output.labels) kinds.emplace_back("labels");
-  return kinds;
-}
-
 bool is_of_kind(const std::string& path, std::string_view kind) {
   return fs::path(path).parent_path().filename() == kind;
-}
-
-// Decodes all of it. Says what is wrong; empty where nothing is.
-std::string fault_of_png(const std::string& bytes, int width, int height) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) return image.message;
-  if (image.width != static_cast<png_uint_32>(width) || image.height != static_cast<png_uint_32>(height)) {
-    std::string fault =
-        fmt::format("found {} x {} pixels, expected {} x {}", image.width, image.height, width, height);
-    png_image_free(&image);
-    return fault;
-  }
-  image.format = PNG_FORMAT_GRAY;
-  std::vector<png_byte> pixels(PNG_IMAGE_SIZE(image));
-  return png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0 ? image.message : "";
 }
 
 // The camera of the scanner in whose folder the file is.
@@ -68,6 +44,13 @@ std::size_t points_of(const CaseRecord& record, const std::string& path) {
   return found == record.scanners.end() ? record.points : found->points;
 }
 
+std::string text_of(const std::vector<DrawnNumber>& drawn) {
+  std::string text;
+  for (const auto& [path, value] : drawn)
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", path, value);
+  return text.empty() ? "none" : text;
+}
+
 /// One case under inspection.
 class Inspection {
 public:
@@ -75,12 +58,33 @@ public:
       : directory_(directory), recipe_(recipe), record_(record) {}
 
   void inspect_files() {
-    for (const std::string_view kind : kinds_of(recipe_.output)) {
-      const bool is_there = std::ranges::any_of(
-          record_.files, [&](const FileRecord& file) { return is_of_kind(file.path, kind); });
-      if (!is_there) add(case_name(), fmt::format("has no file in {}", kind));
+    const std::vector<std::string> own = paths_of(recipe_, record_.id);
+    for (const std::string& path : own) {
+      if (std::ranges::find(record_.files, path, &FileRecord::path) == record_.files.end())
+        add(case_name(), fmt::format("has no file {}", path));
     }
-    for (const FileRecord& file : record_.files) inspect_file(file);
+    for (const FileRecord& file : record_.files) {
+      if (std::ranges::find(own, file.path) != own.end()) {
+        inspect_file(file);
+      } else {
+        add(case_name(), fmt::format("has {}, which is none of its own files", file.path));
+      }
+    }
+  }
+
+  void inspect_numbers(const std::vector<DrawnNumber>& drawn) {
+    const int attempt = static_cast<int>(record_.rejections.size()) + 1;
+    const auto& [set, tubes, number] = record_.id;
+    const std::uint64_t seed = attempt_seed(recipe_.seed, set, tubes, number, attempt);
+    if (record_.seed != seed) {
+      add(case_name(), fmt::format("seed: found {:016x}, expected {:016x}", record_.seed, seed));
+    }
+    const auto is_same = [](const DrawnNumber& a, const DrawnNumber& b) {
+      return a.path == b.path && a.value == b.value;
+    };
+    if (!std::ranges::equal(record_.drawn, drawn, is_same)) {
+      add(case_name(), fmt::format("drawn: found {}, expected {}", text_of(record_.drawn), text_of(drawn)));
+    }
   }
 
   void inspect_heap(bool rest) {
@@ -92,8 +96,7 @@ public:
     if (in_bin > limit) add(case_name(), fmt::format("a tube overlaps the bin by {:.3f} mm", 1e3 * in_bin));
     for (const Tube& tube : tubes_) inspect_place(tube);
     if (rest && faults_.empty()) {
-      const std::string fault = fault_of_heap(tubes_, recipe_.bin, recipe_.settle);
-      if (!fault.empty()) add(case_name(), fault);
+      add_if_any(case_name(), fault_of_heap(tubes_, recipe_.bin, recipe_.settle));
     }
   }
 
@@ -102,20 +105,18 @@ public:
 private:
   static constexpr double rounding = 1e-8;  // m: positions are whole nanometres
 
-  std::string case_name() const {
-    return fmt::format("{}/{}", folder_name(record_.id.set, record_.id.tubes), record_.id.number);
-  }
+  std::string case_name() const { return name_of(record_.id); }
 
   void add(std::string where, std::string what) { faults_.push_back({std::move(where), std::move(what)}); }
+  void add_if_any(std::string where, std::string what) {
+    if (!what.empty()) add(std::move(where), std::move(what));
+  }
 
-  // A reader's complaint names the file by itself.
   void inspect_file(const FileRecord& file) {
-    const std::string prefix = (directory_ / file.path).string() + ": ";
     try {
       read(file.path, checked_bytes(directory_, file));
     } catch (const InputError& error) {
-      const std::string_view message = error.what();
-      add(file.path, std::string(message.starts_with(prefix) ? message.substr(prefix.size()) : message));
+      add(file.path, complaint_of(error));
     }
   }
 
@@ -129,13 +130,12 @@ private:
     } else if (is_of_kind(path, "tube_configurations")) {
       inspect_tubes(path, read_configuration(in, name));
     } else if (is_of_kind(path, "gazebo_worlds")) {
-      inspect_world(path, bytes);
+      add_if_any(path, fault_of_world(bytes));
     } else if (path.ends_with(".json")) {
       if (!nlohmann::json::accept(bytes)) add(path, "not JSON");
     } else if (path.ends_with(".png")) {
       const Camera& camera = camera_of(recipe_, path);
-      const std::string fault = fault_of_png(bytes, camera.width, camera.height);
-      if (!fault.empty()) add(path, fault);
+      add_if_any(path, fault_of_png(bytes, camera.width, camera.height));
     }
   }
 
@@ -164,19 +164,6 @@ private:
     tubes_ = std::move(tubes);
   }
 
-  void inspect_world(const std::string& path, const std::string& bytes) {
-    tinyxml2::XMLDocument document;
-    if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) {
-      add(path, fmt::format("no XML: {}", document.ErrorStr()));
-      return;
-    }
-    const tinyxml2::XMLElement* root = document.RootElement();
-    if (root == nullptr || std::string_view(root->Name()) != "sdf" ||
-        root->FirstChildElement("world") == nullptr) {
-      add(path, "no SDF world");
-    }
-  }
-
   void inspect_place(const Tube& tube) {
     const Eigen::Vector3d centre = mass_properties(tube).centre;
     const bool is_inside = std::abs(centre.x()) < recipe_.bin.length / 2 &&
@@ -197,10 +184,44 @@ private:
 
 }  // namespace
 
+std::string complaint_of(const InputError& error) {
+  const InputPlace& place = error.place();
+  return (place.line > 0 ? fmt::format("line {}: ", place.line) : "") +
+         (place.field.empty() ? "" : place.field + ": ") + error.problem();
+}
+
+std::string fault_of_world(const std::string& bytes) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) {
+    return fmt::format("no XML: {}", tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID()));
+  }
+  const tinyxml2::XMLElement* root = document.RootElement();
+  const bool is_world = root != nullptr && std::string_view(root->Name()) == "sdf" &&
+                        root->FirstChildElement("world") != nullptr;
+  return is_world ? "" : "no SDF world";
+}
+
+std::string fault_of_png(const std::string& bytes, int width, int height) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) return image.message;
+  if (image.width != static_cast<png_uint_32>(width) || image.height != static_cast<png_uint_32>(height)) {
+    std::string fault =
+        fmt::format("found {} x {} pixels, expected {} x {}", image.width, image.height, width, height);
+    png_image_free(&image);
+    return fault;
+  }
+  image.format = PNG_FORMAT_GRAY;
+  std::vector<png_byte> pixels(PNG_IMAGE_SIZE(image));
+  return png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0 ? image.message : "";
+}
+
 std::vector<DatasetFault> faults_of_case(const fs::path& directory, const Recipe& recipe,
                                          const CaseRecord& record, bool rest) {
-  const Recipe drawn = resolve(recipe, record.drawn);
-  Inspection inspection(directory, drawn, record);
+  const std::vector<DrawnNumber> drawn = draw(recipe, record.id);
+  const Recipe resolved = resolve(recipe, drawn);
+  Inspection inspection(directory, resolved, record);
+  inspection.inspect_numbers(drawn);
   inspection.inspect_files();
   inspection.inspect_heap(rest);
   return inspection.take_faults();

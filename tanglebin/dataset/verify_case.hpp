@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/dataset/recipe.hpp"
 #include "tanglebin/dataset/verify_dataset.hpp"
@@ -10,7 +12,16 @@
 // Internal to the library: one case of verify_dataset().
 namespace tanglebin {
 
-/// What is wrong with the files and the physics of a case. With `rest`, its heap is simulated, too.
+/// An error without the file that it is about.
+std::string complaint_of(const InputError& error);
+
+/// What is wrong with a file of these bytes as an SDF world, or as a PNG picture of this size, all of which
+/// is decoded: one line, empty where nothing is.
+std::string fault_of_world(const std::string& bytes);
+std::string fault_of_png(const std::string& bytes, int width, int height);
+
+/// What is wrong with the record, the files and the physics of a case. With `rest`, its heap is simulated,
+/// too.
 std::vector<DatasetFault> faults_of_case(const std::filesystem::path& directory, const Recipe& recipe,
                                          const CaseRecord& record, bool rest);
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <system_error>
 #include <unordered_set>
 #include <utility>
 
@@ -21,10 +22,6 @@ namespace tanglebin {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string name_of(const CaseId& id) {
-  return fmt::format("{}/{}", folder_name(id.set, id.tubes), id.number);
-}
 
 /// One dataset under inspection.
 class Verification {
@@ -72,14 +69,21 @@ private:
   void read_manifest() {
     const fs::path file = directory_ / manifest_name;
     if (!fs::exists(file)) add(manifest_name, "missing");
+    std::uintmax_t whole = 0;
     for_each_whole_line(file, [&](const std::string& line, std::size_t number) {
       const std::string where = fmt::format("{}:{}", manifest_name, number);
       try {
         read_record(case_record(line, where, 0), where);
       } catch (const InputError& error) {
-        add(where, std::string(error.what()).substr(where.size() + 2));
+        add(where, complaint_of(error));
       }
+      whole += line.size() + 1;
     });
+    std::error_code none;
+    if (const std::uintmax_t size = fs::file_size(file, none); !none && size > whole) {
+      add(manifest_name, fmt::format("{} bytes after the last line", size - whole));
+    }
+    if (!fs::exists(directory_ / times_name)) add(times_name, "missing");
     summary_.digest = digest_.hex();
   }
 
@@ -126,7 +130,7 @@ private:
                               summary_.cases, state_.size()));
       }
     } catch (const InputError& error) {
-      add(name, error.what());
+      add(name, complaint_of(error));
     }
   }
 
@@ -143,7 +147,7 @@ private:
     for (const std::string& folder : folders) {
       if (!fs::is_directory(directory_ / folder)) continue;
       for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory_ / folder)) {
-        const std::string path = fs::relative(entry.path(), directory_).string();
+        const std::string path = entry.path().lexically_relative(directory_).string();
         if (!entry.is_directory() && !listed_.contains(path)) add(path, "not in the manifest");
       }
     }
@@ -158,8 +162,7 @@ private:
     RunProgress progress{.wanted = there.size()};
     const auto check = [&](std::size_t task) {
       std::string lines;
-      for (const auto& [where, what] :
-           faults_of_case(directory_, summary_.recipe, catalogue.record(there[task]), settings_.rest)) {
+      for (const auto& [where, what] : faults_of(catalogue, there[task])) {
         lines += fmt::format("{}\t{}\n", where, what);
       }
       return lines;
@@ -180,6 +183,14 @@ private:
         run_in_workers(settings_.jobs, there.size(), check,
                        {.done = take, .failed = give_up, .tick = [&] { observer_.progress(progress); }});
     summary_.was_stopped = !all;
+  }
+
+  std::vector<DatasetFault> faults_of(const Catalogue& catalogue, const CaseId& id) const {
+    try {
+      return faults_of_case(directory_, summary_.recipe, catalogue.record(id), settings_.rest);
+    } catch (const InputError& error) {
+      return {{name_of(id), complaint_of(error)}};
+    }
   }
 
   void take_faults(const CaseId& id, const std::string& lines) {

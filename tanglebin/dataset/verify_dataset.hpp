@@ -29,11 +29,12 @@ struct VerifySummary {
   std::string digest;                ///< of the manifest
   std::vector<DatasetFault> faults;  ///< empty for a dataset that is whole
   std::vector<CaseId> broken;        ///< cases of the recipe that are missing or have a fault
-  bool was_stopped = false;          ///< by SIGINT or SIGTERM: not all cases were looked at
+  bool was_stopped = false;          ///< by SIGINT or SIGTERM: maybe not all cases were looked at
 };
 
 /// Looks for everything that can be wrong with a dataset: cases of the recipe that are missing, failed, there
-/// twice, the same as another, or not the recipe's; lines of the manifest that cannot be read; files that are
+/// twice, the same as another, or not the recipe's; lines of the manifest that cannot be read, or that have
+/// other seeds, drawn numbers or paths than the recipe gives; files that are
 /// missing, changed, not listed, or that a case lacks; files whose format is broken; clouds with other
 /// numbers of points or labels than there are tubes; tubes that overlap or are not in the bin by more than
 /// the recipe lets them; a digest that is not that of the manifest; journals of runs that were cut off.

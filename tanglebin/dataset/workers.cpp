@@ -192,8 +192,6 @@ public:
     return std::ranges::any_of(workers_, [](const Worker& worker) { return worker.task.has_value(); });
   }
 
-  bool is_all_taken() const { return next_ == count_ && again_.empty(); }
-
   void stop() { stopped_ = true; }
 
   const std::optional<std::string>& bad_input() const { return bad_input_; }
@@ -211,10 +209,11 @@ public:
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (lines[i].revents != 0) listen_to(workers_[i], results);
     }
-    replace_the_dead();
+    const std::size_t dead = std::erase_if(workers_, [](const Worker& worker) { return !worker.line; });
     hand_out_tasks();
     if (!results.empty()) observer_.done(results);
     for (const TaskFailure& failure : std::exchange(failures_, {})) observer_.failed(failure);
+    replace(dead);  // only now: it may throw
     observer_.tick();
   }
 
@@ -263,7 +262,7 @@ private:
         stop();
         break;
       case Outcome::impossible:
-        failures_.push_back({task, std::move(answer->text), true});
+        failures_.push_back({task, std::move(answer->text)});
         break;
       case Outcome::exception:
         retry_or_give_up(task, answer->text);
@@ -275,13 +274,13 @@ private:
     if (tried_.insert(task).second) {
       again_.push_back(task);
     } else {
-      failures_.push_back({task, reason + ", the second time", false});
+      failures_.push_back({task, reason + ", the second time"});
     }
   }
 
-  void replace_the_dead() {
-    const std::size_t dead = std::erase_if(workers_, [](const Worker& worker) { return !worker.line; });
+  void replace(std::size_t dead) {
     for (std::size_t i = 0; i < dead && !stopped_; ++i) hire();
+    hand_out_tasks();
   }
 
   // Ends the worker's line and waits for its end; returns the status.
@@ -313,7 +312,7 @@ bool run_in_workers(int jobs, std::size_t count, const Task& task, const Workers
   crew.hand_out_tasks();
   while (crew.is_under_way()) crew.turn();
   if (crew.bad_input()) throw InputError({}, *crew.bad_input());
-  return crew.is_all_taken();
+  return interrupted == 0;
 }
 
 }  // namespace tanglebin

@@ -28,8 +28,7 @@ struct TaskResult {
 /// A task that is given up.
 struct TaskFailure {
   std::size_t task;
-  std::string reason;
-  bool impossible;  ///< it threw TaskImpossible; otherwise it ended two workers or threw twice
+  std::string reason;  ///< it threw TaskImpossible, ended two workers or threw twice
 };
 
 /// What run_in_workers() tells, all of it in the calling process.
@@ -44,12 +43,12 @@ struct WorkersObserver {
 };
 
 /// Runs tasks 0 … count − 1 in `jobs` forked processes. A worker gets the next task when it is done with its
-/// last, so a slow task holds up nobody. A task whose worker dies, or that throws anything but an InputError,
-/// is tried once more, in a new worker, and then given up; all others are done. Returns true when each task
-/// is done or given up, false when SIGINT or SIGTERM came: then the tasks under way are finished and the
-/// others left. So they are when a task throws InputError, which is thrown here then, and when an observer
-/// throws. Workers end with the calling process, whatever ends it. Not to be called where other threads run:
-/// fork() leaves them behind.
+/// last, so a slow task holds up nobody. A task that throws TaskImpossible is given up; one whose worker
+/// dies, or that throws anything else but an InputError, is tried once more and then given up; all others are
+/// done. Returns true when each task is done or given up, false when SIGINT or SIGTERM came: then the tasks
+/// under way are finished and the others, if there were any, left. So they are when a task throws InputError,
+/// which is thrown here then, and when an observer throws. Workers end with the calling process, whatever
+/// ends it. Not to be called where other threads run: fork() leaves them behind.
 bool run_in_workers(int jobs, std::size_t count, const Task& task, const WorkersObserver& observer);
 
 }  // namespace tanglebin

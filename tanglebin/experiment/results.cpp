@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <sstream>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/journal.hpp"
-#include "tanglebin/dataset/json_line.hpp"
+#include "tanglebin/dataset/json_record.hpp"
+#include "tanglebin/dataset/read_file.hpp"
 #include "tanglebin/dataset/safe_file.hpp"
 
 namespace tanglebin {
@@ -39,14 +38,13 @@ Json run_json(const RunId& run) {
   return json;
 }
 
-RunId run_from(const Json& json) {
-  return {method_named(json.at("method").get<std::string>()), id_from(json), json.at("ratio").get<double>()};
+RunId run_of(const JsonRecord& record) {
+  return {method_named(record.text("method")), record.id(), record.number("ratio")};
 }
 
 RunResult run_result(const std::string& line, const std::string& file, std::size_t number) {
-  return read_json_line(line, file, number, [&](const Json& json) {
-    return RunResult{run_from(json), json.at("micro_recall").get<double>(), line};
-  });
+  const JsonRecord record(line, file, number);
+  return {run_of(record), record.number("micro_recall"), line};
 }
 
 void add_result(FinishedRuns& finished, const std::string& line, const std::string& file,
@@ -57,7 +55,7 @@ void add_result(FinishedRuns& finished, const std::string& line, const std::stri
 }
 
 void add_times(FinishedRuns& finished, const std::string& line, const std::string& file, std::size_t number) {
-  finished.times.insert_or_assign(read_json_line(line, file, number, run_from), line);
+  finished.times.insert_or_assign(run_of({line, file, number}), line);
 }
 
 void add_journal_line(FinishedRuns& finished, const std::string& line, const std::string& file,
@@ -88,12 +86,6 @@ Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings)
 std::string experiment_text(Json experiment, std::size_t cases) {
   experiment["cases"] = cases;
   return experiment.dump() + '\n';
-}
-
-Json read_experiment(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return read_json_line(text, file.string(), 1, [](const Json& json) { return json; });
 }
 
 // Calls `take` with every run of the experiment in the order of the results' lines.
@@ -160,7 +152,11 @@ FinishedRuns finished_runs(const fs::path& directory) {
   };
   read(results_of(directory), add_result);
   read(times_of(directory), add_times);
-  for (const fs::path& journal : journals_in(directory)) read(journal, add_journal_line);
+  for (const fs::path& journal : journals_in(directory)) {
+    for_each_readable_line(journal, [&](const std::string& line, std::size_t number) {
+      add_journal_line(finished, line, journal.string(), number);
+    });
+  }
   return finished;
 }
 
@@ -173,9 +169,9 @@ void claim(const fs::path& directory, const Dataset& dataset, const ExperimentSe
     write_file(file, experiment_text(wanted, 0));
     return;
   }
-  const Json found = read_experiment(file);
+  const JsonRecord found(read_file(file), file.string(), 1);
   for (const auto& [key, value] : wanted.items()) {
-    const Json other = found.value(key, Json());
+    const Json other = found.json().value(key, Json());
     if (other == value) continue;
     throw InputError({file.string(), 0, key},
                      fmt::format("the directory belongs to another experiment: it has {}, this one {}",

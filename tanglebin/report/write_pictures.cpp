@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tanglebin/dataset/images.hpp"
-#include "tanglebin/dataset/json_line.hpp"
+#include "tanglebin/dataset/json_record.hpp"
 #include "tanglebin/dataset/safe_file.hpp"
 #include "tanglebin/experiment/summary.hpp"
 #include "tanglebin/report/picture.hpp"

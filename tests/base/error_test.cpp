@@ -22,13 +22,14 @@ TEST(InputError, LeavesOutWhatThePlaceDoesNotHave) {
   EXPECT_STREQ(InputError({"", 0, ""}, "nothing to do").what(), "nothing to do");
 }
 
-TEST(InputError, KeepsThePlace) {
+TEST(InputError, KeepsThePlaceAndTheProblem) {
   try {
     throw InputError({"recipe.toml", 12, "seed"}, "1.5", "an integer");
   } catch (const InputError& error) {
     EXPECT_EQ(error.place().file, "recipe.toml");
     EXPECT_EQ(error.place().line, 12U);
     EXPECT_EQ(error.place().field, "seed");
+    EXPECT_EQ(error.problem(), "found 1.5, expected an integer");
   }
 }
 

@@ -112,7 +112,7 @@ TEST_F(ExperimentCommand, BadInputIsExitStatusTwoAndOneLine) {
   EXPECT_EQ(experiment("--downsample 0.3 --cases 1").status, 0);
   expect_error(experiment("--downsample 0.4"), "another experiment: it has [0.3], this one [0.4]");
   write_bytes(path("dataset/A2/plys/2.ply"), "");
-  expect_error(experiment("--downsample 0.3"), "A2/plys/2.ply: sha256: found ");
+  expect_error(experiment("--downsample 0.3"), "A2/plys/2.ply: bytes: found 0, expected ");
 }
 
 TEST_F(ExperimentCommand, WrongUsageIsExitStatus64) {
@@ -125,6 +125,25 @@ TEST_F(ExperimentCommand, HelpHasAnExample) {
   const ProgramResult run = run_program("experiment --help");
   EXPECT_EQ(run.status, 0);
   EXPECT_THAT(run.out, HasSubstr("tanglebin experiment dataset --out results"));
+}
+
+TEST_F(ExperimentCommand, TellsAProgramOfEachEventInALineOfJson) {
+  const ProgramResult run = experiment("--downsample 0.5 --progress json");
+  EXPECT_EQ(run.status, 0) << run.err;
+  std::istringstream lines(run.out);
+  int cases = 0;
+  nlohmann::json last;
+  for (std::string line; std::getline(lines, line);) {
+    last = nlohmann::json::parse(line);
+    if (last.at("event") != "case") continue;
+    ++cases;
+    EXPECT_EQ(last.at("set"), "A");
+    EXPECT_TRUE(last.at("seconds").is_number());
+  }
+  EXPECT_EQ(cases, 4);
+  EXPECT_EQ(last.at("event"), "end");
+  EXPECT_EQ(last.at("made"), 4);
+  EXPECT_EQ(last.at("micro_recall").size(), 2U);
 }
 
 }  // namespace

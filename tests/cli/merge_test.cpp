@@ -74,7 +74,7 @@ TEST_F(Merge, BadInputIsExitStatusTwoAndOneLine) {
   write_bytes(path("part1/A1/plys/1.ply"), "");
   const ProgramResult result = merge(path("part1"));
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("part1/A1/plys/1.ply: sha256: found "));
+  EXPECT_THAT(result.err, HasSubstr("part1/A1/plys/1.ply: bytes: found 0, expected "));
   EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
   EXPECT_EQ(merge(path("nothing")).status, 2);
   EXPECT_EQ(merge("").status, 64);

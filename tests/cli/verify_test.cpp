@@ -61,7 +61,7 @@ TEST_F(Verify, EndsWithOneAndAListOtherwiseAndRepairs) {
   const ProgramResult broken = verify();
   EXPECT_EQ(broken.status, 1);
   EXPECT_THAT(broken.out, StartsWith("A2/gazebo_worlds/3.world: cannot be opened: No such file or directory\n"
-                                     "A2/plys/2.ply: sha256: found "));
+                                     "A2/plys/2.ply: bytes: found 3, expected "));
   EXPECT_THAT(broken.out, HasSubstr("; 2 faults\n"));
 
   const auto json = nlohmann::json::parse(verify("--json").out);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "../support/temporary_directory.hpp"
@@ -52,6 +53,10 @@ TEST(DatasetSummary, IsNoneWhereThereIsNoFileAndAnErrorWhereItIsDamaged) {
   EXPECT_FALSE(read_dataset_summary(directory.path()));
   write_bytes(directory / "dataset.json", "{\"cases\":");
   EXPECT_THAT(complaint([&] { read_dataset_summary(directory.path()); }), HasSubstr("dataset.json: "));
+  std::filesystem::remove(directory / "dataset.json");
+  std::filesystem::create_directory(directory / "dataset.json");
+  EXPECT_THAT(complaint([&] { read_dataset_summary(directory.path()); }),
+              HasSubstr("dataset.json: cannot be read: Is a directory"));
 }
 
 TEST(DatasetSummary, SaysWhatTheBytesFollowFromBesideTheRecipe) {

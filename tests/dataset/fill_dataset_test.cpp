@@ -8,6 +8,7 @@
 #include <csignal>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "../support/temporary_directory.hpp"
 #include "small_recipe.hpp"
@@ -81,26 +82,20 @@ TEST(FillDataset, AFailedCaseIsTriedAgainByTheNextRunAndForgottenWhenItIsMade) {
   EXPECT_EQ(files_below(directory.path()), files_below(whole.path()));
 }
 
-TEST(FillDataset, AnImpossibleCaseIsAFailedOneButNotWhereNoneWasMadeBefore) {
-  const auto make_others = [](const CaseId& id, const CaseWriter& writer) {
-    if (is_case(id, 3, 3)) throw TaskImpossible("no valid scene");
-    return write_name(id, writer);
-  };
+TEST(FillDataset, AnImpossibleCaseIsAFailedOneAndTheRunGoesOn) {
   const TemporaryDirectory directory;
-  const FillSummary summary = fill(directory, make_others);
+  FillRequest request = request_of(directory);
+  request.jobs = 1;
+  const FillSummary summary = fill_dataset(request,
+                                           [](const CaseId& id, const CaseWriter& writer) {
+                                             if (is_case(id, 1, 1)) throw TaskImpossible("no valid scene");
+                                             return write_name(id, writer);
+                                           },
+                                           {});
+  EXPECT_EQ(summary.progress.made, 5U);
   ASSERT_EQ(summary.failed.size(), 1U);
   EXPECT_EQ(summary.failed[0].reason, "no valid scene");
-
-  const TemporaryDirectory hopeless;
-  FillRequest request = request_of(hopeless);
-  request.jobs = 1;
-  EXPECT_EQ(complaint([&] {
-              fill_dataset(
-                  request,
-                  [](const CaseId&, const CaseWriter&) -> MadeCase { throw TaskImpossible("nothing fits"); },
-                  {});
-            }),
-            "A1/1: nothing fits");
+  EXPECT_EQ(bytes_of(directory / "failed.jsonl"), to_json(summary.failed[0]) + '\n');
 }
 
 TEST(FillDataset, ShardsFillOneDirectoryAtTheSameTime) {
@@ -198,6 +193,69 @@ TEST(FillDataset, ADamagedManifestIsAnErrorThatSaysWhere) {
   fill(directory);
   write_bytes(directory / "manifest.jsonl", "{\"set\":\"A\",\"tubes\":1}\n");
   EXPECT_THAT(complaint([&] { fill(directory); }), HasSubstr("manifest.jsonl:1: "));
+}
+
+TEST(FillDataset, AManifestThatCannotBeReadIsNotTakenForNone) {
+  const TemporaryDirectory directory;
+  fill(directory);
+  std::filesystem::rename(directory / "manifest.jsonl", directory / "kept");
+  std::filesystem::create_symlink("manifest.jsonl", directory / "manifest.jsonl");
+  EXPECT_THAT(complaint([&] { fill(directory); }),
+              HasSubstr("manifest.jsonl: cannot be opened: Too many levels of symbolic links"));
+  std::filesystem::rename(directory / "kept", directory / "manifest.jsonl");
+  EXPECT_EQ(fill(directory).progress.found, 6U);
+}
+
+TEST(FillDataset, AJournalOfNothingThatCanBeReadHoldsUpNobody) {
+  const TemporaryDirectory whole;
+  fill(whole);
+  for (const std::string left : {"{\"set\":\"A\",\"tub", "no JSON\n", "{\"set\":\"A\"}\t\n", "\n", "\t\n"}) {
+    const TemporaryDirectory directory;
+    fill(directory, [](const CaseId& id, const CaseWriter& writer) {
+      if (is_case(id, 1, 2)) throw TaskImpossible("not now");
+      return write_name(id, writer);
+    });
+    write_bytes(directory / "journal.jsonl", left);
+    EXPECT_EQ(fill(directory).progress.made, 1U) << left;
+    EXPECT_EQ(files_below(directory.path()), files_below(whole.path())) << left;
+  }
+}
+
+TEST(FillDataset, SaysWhatItIsMadeWithBeforeThereAreCasesAndOnlyWhereThereAreAny) {
+  const TemporaryDirectory directory;
+  const std::set<Versions> first = {{{"ode", "0.16.2"}}};
+  const pid_t child = fork();
+  if (child == 0) {
+    FillRequest request = request_of(directory);
+    request.made_with = first;
+    fill_dataset(request, write_name,
+                 {.ended = [](const CaseEvent&, const RunProgress&) { std::raise(SIGKILL); }});
+  }
+  waitpid(child, nullptr, 0);
+  EXPECT_EQ(read_dataset_summary(directory.path())->made_with, first);
+
+  fill(directory);
+  FillRequest later = request_of(directory);
+  later.made_with = {{{"ode", "0.17"}}};
+  EXPECT_EQ(fill_dataset(later, write_name, {}).dataset.made_with, first);
+}
+
+TEST(FillDataset, AShardThatBeginsLeavesTheLinesOfOnesAtWorkToThem) {
+  const TemporaryDirectory directory;
+  FillRequest first = request_of(directory, "1-of-2");
+  first.wanted = cases_of({1, 2}, first.wanted);
+  first.jobs = 1;
+  std::filesystem::file_time_type written;
+  bool is_first = true;
+  fill_dataset(first, write_name, {.ended = [&](const CaseEvent&, const RunProgress&) {
+                 if (!std::exchange(is_first, false)) return;
+                 written = std::filesystem::last_write_time(directory / "dataset.json");
+                 FillRequest second = request_of(directory, "2-of-2");
+                 second.wanted = {second.wanted.front()};  // the one that is in the first one's journal
+                 EXPECT_EQ(fill_dataset(second, write_name, {}).progress.found, 1U);
+                 EXPECT_EQ(std::filesystem::last_write_time(directory / "dataset.json"), written);
+               }});
+  EXPECT_EQ(read_dataset_summary(directory.path())->cases, 3U);
 }
 
 }  // namespace

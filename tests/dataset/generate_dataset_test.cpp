@@ -13,6 +13,7 @@
 #include "../support/temporary_directory.hpp"
 #include "small_recipe.hpp"
 #include "tanglebin/cloud/ply.hpp"
+#include "tanglebin/dataset/case_files.hpp"
 #include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/file_lock.hpp"
@@ -40,6 +41,12 @@ std::map<std::string, std::string> dataset_in(const std::filesystem::path& direc
   auto files = files_below(directory);
   files.erase("times.jsonl");
   return files;
+}
+
+std::vector<std::string> paths_in(const CaseRecord& record) {
+  std::vector<std::string> paths;
+  for (const FileRecord& file : record.files) paths.push_back(file.path);
+  return paths;
 }
 
 Recipe recipe_of(const std::string& text) {
@@ -79,6 +86,7 @@ TEST(GenerateDataset, SeveralScannersSeeTheSameSceneAndHaveAFolderEach) {
   EXPECT_EQ(record.scanners[1].name, "beside");
   EXPECT_EQ(record.scanners[1].points, read_ply(two / "A2/beside/plys/1.ply").points.size());
   EXPECT_EQ(record.files.size(), 8U);
+  EXPECT_EQ(paths_in(record), paths_of(recipe, record.id));
 }
 
 TEST(GenerateDataset, NumbersThatAreDrawnStandInTheManifestAndDependOnNoWorker) {
@@ -125,6 +133,7 @@ TEST(GenerateDataset, WritesThePublishedLayoutAndAManifestOfIt) {
     const CaseRecord record = case_record(line, "manifest.jsonl", 1);
     EXPECT_EQ(record.id, id);  // in the recipe's order
     EXPECT_EQ(record.files.size(), 7U);
+    EXPECT_EQ(paths_in(record), paths_of(recipe, id));
     for (const FileRecord& file : record.files) {
       EXPECT_EQ(files.at(file.path).size(), file.bytes);
       EXPECT_EQ(sha256(files.at(file.path)), file.sha256);
@@ -219,7 +228,7 @@ TEST(GenerateDataset, AnotherRecipeIsNotLetIn) {
 TEST(GenerateDataset, OneRunAtATime) {
   const TemporaryDirectory directory;
   {
-    const auto other = FileLock::take(directory / "journal.jsonl", std::chrono::milliseconds(0));
+    const auto other = FileLock::take(directory / "journal.jsonl");
     ASSERT_TRUE(other.has_value());
     EXPECT_EQ(complaint([&] { generate(small_recipe(), directory.path()); }),
               directory.path().string() + ": another run is writing here");

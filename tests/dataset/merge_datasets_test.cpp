@@ -112,7 +112,7 @@ TEST_F(MergeDatasets, AFileThatHasChangedIsAnErrorThatNamesItAndIsNotCopied) {
   make_parts(1);
   write_bytes(parts_[0] / "A1/plys/2.ply", "ply\n");
   EXPECT_THAT(complaint([&] { merge_datasets(parts_, merged_, 1); }),
-              HasSubstr("A1/plys/2.ply: sha256: found "));
+              HasSubstr("A1/plys/2.ply: bytes: found 4, expected "));
   EXPECT_FALSE(std::filesystem::exists(merged_ / "A1/plys/2.ply"));
 }
 
@@ -139,14 +139,42 @@ TEST_F(MergeDatasets, ACaseThatIsNotTheRecipesOrAPathThatLeadsOutIsAnError) {
   std::string outside = manifest;
   outside.replace(outside.find("A1/plys/1.ply"), 13, "../../out.ply");
   write_bytes(parts_[0] / "manifest.jsonl", outside);
-  EXPECT_THAT(complaint([&] { merge_datasets(parts_, merged_, 1); }),
-              HasSubstr("path is not below the dataset's directory: \"../../out.ply\""));
+  EXPECT_THAT(
+      complaint([&] { merge_datasets(parts_, merged_, 1); }),
+      HasSubstr("files[0].path: found '../../out.ply', expected a path below the dataset's directory"));
   EXPECT_FALSE(std::filesystem::exists(directory_ / "out.ply"));
 }
 
 TEST_F(MergeDatasets, WhatIsNoDatasetIsAnError) {
   EXPECT_THAT(complaint([&] { merge_datasets({directory_ / "none"}, merged_, 1); }),
               HasSubstr("none/recipe.toml: "));
+}
+
+TEST_F(MergeDatasets, APathThatIsNoneOfTheCasesOwnIsAnError) {
+  make_parts(1);
+  std::string manifest = bytes_of(parts_[0] / "manifest.jsonl");
+  manifest.replace(manifest.find("A1/plys/1.ply"), 13, "recipe.toml");
+  write_bytes(parts_[0] / "manifest.jsonl", manifest);
+  EXPECT_THAT(complaint([&] { merge_datasets(parts_, merged_, 1); }),
+              HasSubstr("manifest.jsonl: A1/1: found recipe.toml, expected one of the case's own files"));
+}
+
+TEST_F(MergeDatasets, AFolderThatIsALinkToOutsideIsAnErrorWhereFilesAreReadAndWritten) {
+  make_parts(1);
+  const std::filesystem::path elsewhere = directory_ / "elsewhere";
+  std::filesystem::rename(parts_[0] / "A1", elsewhere);
+  std::filesystem::create_symlink(elsewhere, parts_[0] / "A1");
+  EXPECT_THAT(complaint([&] { merge_datasets(parts_, merged_, 1); }),
+              HasSubstr("A1/plys/1.ply: found a folder that leads to " + elsewhere.string()));
+
+  std::filesystem::remove(parts_[0] / "A1");
+  std::filesystem::rename(elsewhere, parts_[0] / "A1");
+  std::filesystem::create_directories(elsewhere);
+  std::filesystem::remove_all(merged_);
+  std::filesystem::create_directory(merged_);
+  std::filesystem::create_symlink(elsewhere, merged_ / "A1");
+  EXPECT_THAT(complaint([&] { merge_datasets(parts_, merged_, 1); }), HasSubstr("a folder that leads to "));
+  EXPECT_TRUE(files_below(elsewhere).empty());
 }
 
 }  // namespace

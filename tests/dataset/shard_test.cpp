@@ -91,5 +91,18 @@ TEST(Shard, VariablesThatContradictEachOtherAreAnErrorWithARemedy) {
                "JOB_COMPLETION_INDEX: found \"-1\"");
 }
 
+TEST(Shard, OfAnArrayWithGapsIsAnErrorForEachOfItsTasks) {
+  for (const std::string id : {"1", "3", "7"}) {
+    EXPECT_EQ(complaint([&] {
+                shard_in({{"SLURM_ARRAY_TASK_ID", id},
+                          {"SLURM_ARRAY_TASK_COUNT", "3"},
+                          {"SLURM_ARRAY_TASK_MIN", "1"},
+                          {"SLURM_ARRAY_TASK_MAX", "7"}});
+              }),
+              "SLURM_ARRAY_TASK_MAX: found 7, expected 3, the last of 3 numbers without a gap; --shard I/N "
+              "says which part to make");
+  }
+}
+
 }  // namespace
 }  // namespace tanglebin

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -157,7 +158,8 @@ TEST_F(VerifyDataset, FindsCountsThatAreNotWhatTheManifestAndTheRecipeSay) {
   const std::vector<std::string> found = faults();
   EXPECT_THAT(found, Contains(testing::ContainsRegex("A3/plys/1.ply: found [0-9]+ points, expected [0-9]+")));
   EXPECT_THAT(found, Contains("A1/tube_configurations/1.txt: found 3 tubes, expected 1"));
-  EXPECT_THAT(found, Contains("A3/3: has no file in labels"));
+  EXPECT_THAT(found, Contains("A3/3: has no file A3/labels/3.png"));
+  EXPECT_THAT(found, Contains("A3/3: has A3/other/3.png, which is none of its own files"));
   EXPECT_THAT(found, Contains("A3/labels/3.png: not in the manifest"));
 }
 
@@ -216,6 +218,76 @@ TEST_F(VerifyDataset, FindsARecipeThatWasEdited) {
   write_bytes(path("recipe.toml"), bytes_of(path("recipe.toml")) + "# mine\n");
   EXPECT_THAT(faults(),
               ElementsAre(testing::ContainsRegex("recipe.toml: line [0-9]+ is not as it was written")));
+}
+
+TEST_F(VerifyDataset, FindsAndRepairsADamagedSummary) {
+  for (const std::string damage : {"", "{\"cases\":", "{}"}) {
+    write_bytes(path("dataset.json"), damage);
+    EXPECT_THAT(faults(), ElementsAre(HasSubstr("dataset.json: ")));
+    repair_dataset(directory_.path(), verify(), 1);
+    EXPECT_THAT(faults(), IsEmpty());
+  }
+}
+
+TEST_F(VerifyDataset, FindsAndRepairsADamagedLineBesideAGoodOneOfTheSameCase) {
+  const std::string manifest = bytes_of(path("manifest.jsonl"));
+  write_bytes(path("manifest.jsonl"), manifest + "{\"set\":\"A\",\"tubes\":1,\"case\":2,\"seed\":\"x\"}\n");
+  EXPECT_THAT(faults(),
+              ElementsAre("manifest.jsonl:7: seed: found 'x', expected a hexadecimal number of 64 bits"));
+  expect_repair();
+}
+
+TEST_F(VerifyDataset, FindsAndRepairsBytesAfterTheLastLineAndMissingTimes) {
+  std::ofstream(path("manifest.jsonl"), std::ios::app) << "torn";
+  fs::remove(path("times.jsonl"));
+  EXPECT_THAT(faults(), ElementsAre("manifest.jsonl: 4 bytes after the last line", "times.jsonl: missing"));
+  expect_repair();
+}
+
+TEST_F(VerifyDataset, FindsAndRepairsASeedThatIsNotTheCases) {
+  replace_in("manifest.jsonl", "\"seed\":\"", "\"seed\":\"0");
+  const std::string manifest = bytes_of(path("manifest.jsonl"));
+  const std::size_t end = manifest.find('"', manifest.find("\"seed\":\"") + 8);
+  write_bytes(path("manifest.jsonl"), manifest.substr(0, end - 1) + manifest.substr(end));
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("A1/1: seed: found 0")));
+  expect_repair();
+}
+
+TEST_F(VerifyDataset, DoesNotReadFoldersThatAreLinksToOutside) {
+  const TemporaryDirectory elsewhere;
+  fs::rename(path("A1"), elsewhere / "A1");
+  fs::create_symlink(elsewhere / "A1", path("A1"));
+  EXPECT_THAT(faults(), Contains(HasSubstr("A1/plys/1.ply: found a folder that leads to ")));
+}
+
+TEST(VerifyManyScanners, FindsNothingWrongButTheNumbersThatAre) {
+  const TemporaryDirectory directory;
+  std::istringstream text(
+      "[bin]\nheight = { min = 0.15, max = 0.25 }\n[output]\ndepths = true\nlabels = true\npcds = true\n"
+      "[[scanner]]\nname = \"above\"\nwidth = 120\nheight = 75\n"
+      "[[scanner]]\nname = \"beside\"\nwidth = 160\nheight = 100\nsigma = { min = 0, max = 0.001 }\n"
+      "position = [0.3, 0.8, 1.2]\nlook_at = [0, 0, 0.1]\n"
+      "[[set]]\nname = \"A\"\ntubes = [2]\ncases = 3\n[set.tube]\nradius = 0.0125\nmass = 0.5\n"
+      "length = 0.5\nbend_max_deg = 30\n");
+  const Recipe recipe = read_recipe(text, "r.toml");
+  generate_dataset(recipe, cases(recipe), directory.path(), 2);
+  const auto faults = [&] { return verify_dataset(directory.path(), {.jobs = 1, .rest = true}).faults; };
+  EXPECT_THAT(faults(), IsEmpty());
+
+  std::string manifest = bytes_of(directory / "manifest.jsonl");
+  const std::size_t drawn = manifest.find("\"bin.height\":0.") + 15;
+  manifest[drawn] = manifest[drawn] == '1' ? '2' : '1';  // of the first case
+  const std::size_t second = manifest.find("\"drawn\":{", manifest.find('\n'));
+  manifest.erase(second, manifest.find('}', second) + 2 - second);  // of the second one
+  write_bytes(directory / "manifest.jsonl", manifest);
+  const std::vector<DatasetFault> found = faults();
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].where, "A2/1");
+  EXPECT_THAT(found[0].what, testing::ContainsRegex("^drawn: found bin.height = .*, expected bin.height = "));
+  EXPECT_EQ(found[1].where, "A2/2");
+  EXPECT_THAT(found[1].what, HasSubstr("drawn: found none, expected bin.height = "));
+  repair_dataset(directory.path(), verify_dataset(directory.path(), {}), 1);
+  EXPECT_THAT(faults(), IsEmpty());
 }
 
 }  // namespace

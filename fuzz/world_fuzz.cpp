@@ -1,0 +1,14 @@
+// Any bytes are an SDF world or not; what is wrong with them is said on one line.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "tanglebin/dataset/verify_case.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string fault = tanglebin::fault_of_world(std::string(data, data + size));
+  if (fault.find_first_of("\n\t") != std::string::npos) std::abort();
+  return 0;
+}

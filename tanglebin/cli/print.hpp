@@ -1,0 +1,26 @@
+#pragma once
+
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <string>
+#include <utility>
+
+// Printing that never throws: that a terminal, or a program that reads, is gone ends no run.
+namespace tanglebin::cli {
+
+/// Prints formatted text to standard output. What could not be written is told of by main() at the end.
+template <typename... Values>
+void print_out(fmt::format_string<Values...> format, Values&&... values) {
+  const std::string text = fmt::format(format, std::forward<Values>(values)...);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+/// Prints formatted text to standard error.
+template <typename... Values>
+void print_error(fmt::format_string<Values...> format, Values&&... values) {
+  const std::string text = fmt::format(format, std::forward<Values>(values)...);
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+}  // namespace tanglebin::cli

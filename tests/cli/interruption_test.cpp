@@ -1,0 +1,211 @@
+// What happens to a run when somebody presses Ctrl-C, or when what it prints has no place to go.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "../support/program.hpp"
+
+namespace tanglebin {
+namespace {
+
+namespace fs = std::filesystem;
+using test::bytes_of;
+using test::ProgramResult;
+using test::run_program;
+using test::run_shell;
+using test::TemporaryDirectory;
+using test::write_bytes;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+constexpr const char* recipe = R"(
+seed = 5
+[scanner]
+width = 48
+height = 30
+[[set]]
+name = "A"
+tubes = [1]
+cases = 300
+[set.tube]
+radius = 0.0125
+mass = 0.5
+length = 0.5
+bend_max_deg = 30
+)";
+
+/// The program at work, whose standard output is read line by line.
+class RunningProgram {
+public:
+  explicit RunningProgram(std::vector<std::string> arguments) {
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+    std::fflush(nullptr);  // or what is buffered comes out of both
+    process_ = fork();
+    if (process_ == 0) {
+      dup2(ends[1], STDOUT_FILENO);
+      close(ends[0]);
+      close(ends[1]);
+      arguments.insert(arguments.begin(), "tanglebin");
+      std::vector<char*> texts;
+      for (std::string& argument : arguments) texts.push_back(argument.data());
+      texts.push_back(nullptr);
+      execv(TANGLEBIN_PROGRAM, texts.data());
+      _exit(127);
+    }
+    close(ends[1]);
+    out_ = fdopen(ends[0], "r");
+  }
+  ~RunningProgram() { std::fclose(out_); }
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+
+  /// The next line; empty at the end.
+  std::string line() {
+    std::string text;
+    for (int c = std::fgetc(out_); c != EOF && c != '\n'; c = std::fgetc(out_)) text += static_cast<char>(c);
+    return text;
+  }
+
+  void interrupt_after_a_case() {
+    std::string text = line();
+    while (!text.empty() && text.find("\"event\":\"case\"") == std::string::npos) text = line();
+    kill(process_, SIGINT);
+  }
+
+  std::string last_line() {
+    std::string last;
+    for (std::string text = line(); !text.empty(); text = line()) last = text;
+    return last;
+  }
+
+  int exit_status() const {
+    int status = 0;
+    waitpid(process_, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+private:
+  pid_t process_ = 0;
+  std::FILE* out_ = nullptr;
+};
+
+class Interruption : public testing::Test {
+protected:
+  Interruption() { write_bytes(directory_ / "recipe.toml", recipe); }
+
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  std::string generate(const std::string& more) const {
+    return "generate " + path("recipe.toml") + " --out " + path("dataset") + " " + more;
+  }
+  std::vector<std::string> names_in_dataset() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(path("dataset")))
+      names.push_back(entry.path().filename());
+    return names;
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(Interruption, OfGenerateFinishesTheCasesUnderWayAndLeavesADatasetAndNothingElse) {
+  RunningProgram program({"generate", path("recipe.toml"), "--out", path("dataset"), "--progress", "json"});
+  program.interrupt_after_a_case();
+  const auto end = nlohmann::json::parse(program.last_line());
+  EXPECT_EQ(program.exit_status(), 130);
+  EXPECT_EQ(end.at("complete"), false);
+  EXPECT_GT(end.at("made"), 0);
+  EXPECT_EQ(end.at("dataset").at("cases"), end.at("made"));
+  EXPECT_THAT(names_in_dataset(),
+              UnorderedElementsAre("A1", "recipe.toml", "manifest.jsonl", "times.jsonl", "dataset.json"));
+  const auto rest = nlohmann::json::parse(run_program(generate("--json")).out);
+  EXPECT_EQ(rest.at("found"), end.at("made"));
+  EXPECT_EQ(rest.at("complete"), true);
+}
+
+TEST_F(Interruption, OfARepairEndsItWithoutAnotherVerification) {
+  run_program(generate(""));
+  fs::remove_all(path("dataset/A1"));
+  fs::remove(path("dataset/manifest.jsonl"));
+  RunningProgram program({"verify", path("dataset"), "--repair", "--progress", "json"});
+  program.interrupt_after_a_case();  // of the repair: there is none to verify
+  const auto end = nlohmann::json::parse(program.last_line());
+  EXPECT_EQ(program.exit_status(), 130);
+  EXPECT_EQ(end.at("stopped"), true);
+  EXPECT_GT(end.at("repaired"), 0);
+  EXPECT_LT(end.at("repaired"), 300);
+}
+
+TEST_F(Interruption, OfTheProgramThatReadsTheEventsLeavesTheRunAlone) {
+  const ProgramResult result =
+      run_shell("( " + std::string(TANGLEBIN_PROGRAM) + " " + generate("--cases 1-30 --progress json") +
+                "; echo $? >" + path("status") + " ) | head -n 1");
+  EXPECT_THAT(result.out, HasSubstr("\"event\":"));
+  EXPECT_THAT(result.err, IsEmpty());
+  EXPECT_EQ(bytes_of(path("status")), "0\n");
+  EXPECT_EQ(nlohmann::json::parse(bytes_of(path("dataset/dataset.json"))).at("cases"), 30);
+}
+
+TEST_F(Interruption, OfTheTerminalLeavesTheRunAlone) {
+  int terminal = -1;
+  int end = -1;
+  ASSERT_EQ(openpty(&terminal, &end, nullptr, nullptr, nullptr), 0);
+  std::fflush(nullptr);
+  const pid_t process = fork();
+  if (process == 0) {
+    dup2(end, STDERR_FILENO);
+    close(end);
+    close(terminal);
+    freopen("/dev/null", "w", stdout);
+    const std::string file = path("recipe.toml");
+    const std::string out = path("dataset");
+    execl(TANGLEBIN_PROGRAM, "tanglebin", "generate", file.c_str(), "--out", out.c_str(), nullptr);
+    _exit(127);
+  }
+  close(end);
+  std::array<char, 64> progress{};
+  EXPECT_GT(read(terminal, progress.data(), progress.size()), 0);
+  close(terminal);  // from here on writing gives EIO
+  int status = 0;
+  waitpid(process, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(nlohmann::json::parse(bytes_of(path("dataset/dataset.json"))).at("cases"), 300);
+}
+
+TEST_F(Interruption, OutputThatIsLostIsAnError) {
+  for (const std::string& command :
+       {generate("--cases 1"), "verify " + path("dataset"), std::string("--help")}) {
+    const ProgramResult result = run_program(command + " >/dev/full");
+    EXPECT_EQ(result.status, 2) << command;
+    EXPECT_EQ(result.err, "tanglebin: standard output: cannot write all of it\n");
+  }
+  EXPECT_EQ(run_program(generate("--cases 2") + " 2>/dev/full").status, 0);
+}
+
+TEST_F(Interruption, OfNoneLeavesAWorkerAsLargeAfterManyCasesAsAfterTheFirst) {
+  ASSERT_EQ(run_program(generate("--jobs 1")).status, 0);
+  std::istringstream lines(bytes_of(path("dataset/times.jsonl")));
+  std::vector<double> peaks;
+  for (std::string line; std::getline(lines, line);) {
+    peaks.push_back(nlohmann::json::parse(line).at("peak_memory").get<double>());
+  }
+  ASSERT_EQ(peaks.size(), 300U);
+  EXPECT_LT(peaks.back(), peaks.front() + 2);  // MiB; with sanitizers freed memory is kept for a while
+}
+
+}  // namespace
+}  // namespace tanglebin
