@@ -150,7 +150,7 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
       {model("mm.ply", ""), "millimetres?"},
       {model("scan.ply", "--method magic"), "method: found \"magic\", expected paper, axis"},
       {model("scan.ply", "--downsample 0"), "downsample: found 0, expected"},
-      {model("scan.ply", "--radius -1"), "--radius: found '-1', expected a positive number"},
+      {model("scan.ply", "--radius -1"), "--radius: found \"-1\", expected a positive number"},
       {model("scan.ply", "--bin bucket"), "bucket"},
       {model("nowhere.ply", ""), "nowhere.ply"},
   };
