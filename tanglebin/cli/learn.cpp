@@ -1,4 +1,3 @@
-#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/print.hpp"
 #include "tanglebin/experiment/learn_links.hpp"
 
 namespace tanglebin::cli {
@@ -39,11 +39,11 @@ void learn(const LearnArguments& arguments) {
         examples, [&](const LinkExample& example) { return is_of_kind(example) && example.is_true; });
     json[name] = {{"links", links}, {"true", true_links}, {"weights", weights.of(kind)}};
     if (!arguments.json) {
-      fmt::print("{:<10} {{{:.4f}}}  of {} links, {} true\n", name, fmt::join(weights.of(kind), ", "), links,
+      print_out("{:<10} {{{:.4f}}}  of {} links, {} true\n", name, fmt::join(weights.of(kind), ", "), links,
                  true_links);
     }
   }
-  if (arguments.json) fmt::print("{}\n", json.dump());
+  if (arguments.json) print_out("{}\n", json.dump());
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ void print_summary(const ModelArguments& arguments, const KnownScene& known, con
     print_out("{}\n", json.dump());
     return;
   }
-  if (arguments.radius == "auto") fmt::print("radius   {:>8.5f} m\n", known.radius);
+  if (arguments.radius == "auto") print_out("radius   {:>8.5f} m\n", known.radius);
   for (const Step& step : model.steps) {
     print_out("{:<8} {:>8.3f} s  {:>7} {}\n", step.name, step.seconds, step.count, step.of);
   }

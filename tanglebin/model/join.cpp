@@ -1,8 +1,8 @@
 #include "tanglebin/model/join.hpp"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -40,38 +40,30 @@ std::vector<Join> candidates(const std::vector<Cylinder>& cylinders, const JoinS
   return joins;
 }
 
-/// Which cylinders are in one tube, and how long it is: a forest of disjoint sets.
+/// Which cylinders are in one tube, and how long it is.
 class TubesInTheMaking {
 public:
-  explicit TubesInTheMaking(const std::vector<Cylinder>& cylinders) : parents_(cylinders.size()) {
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+  explicit TubesInTheMaking(const std::vector<Cylinder>& cylinders) : sets_(cylinders.size()) {
     for (const Cylinder& cylinder : cylinders) lengths_.push_back(length_of(cylinder));
   }
 
-  bool are_one(std::size_t first, std::size_t second) { return root(first) == root(second); }
+  bool are_one(std::size_t first, std::size_t second) {
+    return sets_.find_set(first) == sets_.find_set(second);
+  }
 
   double length_if_joined(std::size_t first, std::size_t second, double gap) {
-    return lengths_[root(first)] + gap + lengths_[root(second)];
+    return lengths_[sets_.find_set(first)] + gap + lengths_[sets_.find_set(second)];
   }
 
   void join(std::size_t first, std::size_t second, double gap) {
     const double length = length_if_joined(first, second, gap);
-    const std::size_t kept = root(first);
-    parents_[root(second)] = kept;
-    lengths_[kept] = length;
+    sets_.union_set(first, second);
+    lengths_[sets_.find_set(first)] = length;
   }
 
 private:
-  std::size_t root(std::size_t cylinder) {
-    while (parents_[cylinder] != cylinder) {
-      parents_[cylinder] = parents_[parents_[cylinder]];
-      cylinder = parents_[cylinder];
-    }
-    return cylinder;
-  }
-
-  std::vector<std::size_t> parents_;
-  std::vector<double> lengths_;  // m, of the tube whose root it is
+  boost::disjoint_sets_with_storage<> sets_;
+  std::vector<double> lengths_;  // m, of the tube that a set stands for
 };
 
 /// To which end of another cylinder each end is joined.

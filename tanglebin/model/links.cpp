@@ -1,6 +1,7 @@
 #include "tanglebin/model/links.hpp"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -82,31 +83,6 @@ double share_seen_empty(const FragmentEnd& first, const FragmentEnd& second, con
   return static_cast<double>(std::min(straight, curved)) / samples;
 }
 
-/// Disjoint sets of fragments.
-class DisjointSets {
-public:
-  explicit DisjointSets(std::size_t fragments) : parents_(fragments) {
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-  }
-
-  std::size_t of(std::size_t fragment) {
-    while (parents_[fragment] != fragment) {
-      parents_[fragment] = parents_[parents_[fragment]];
-      fragment = parents_[fragment];
-    }
-    return fragment;
-  }
-
-  void unite(std::size_t first, std::size_t second) {
-    first = of(first);
-    second = of(second);
-    parents_[std::max(first, second)] = std::min(first, second);
-  }
-
-private:
-  std::vector<std::size_t> parents_;
-};
-
 /// The tubes that links make of fragments.
 class Tubes {
 public:
@@ -123,26 +99,26 @@ public:
   // Whether a link leaves the tube open, no longer than known, and with no more ends than its junctions give
   // it.
   bool allow(const Link& link) {
-    const std::size_t first = sets_.of(link.fragment);
-    const std::size_t second = sets_.of(link.to.fragment);
+    const std::size_t first = sets_.find_set(link.fragment);
+    const std::size_t second = sets_.find_set(link.to.fragment);
     return first != second && lengths_[first] + link.gap + lengths_[second] <= length_max_ &&
            ends_[first] + ends_[second] <= ends_max_ + ends_used(link);
   }
 
   void join(const Link& link) {
-    const std::size_t first = sets_.of(link.fragment);
-    const std::size_t second = sets_.of(link.to.fragment);
+    const std::size_t first = sets_.find_set(link.fragment);
+    const std::size_t second = sets_.find_set(link.to.fragment);
     const double length = lengths_[first] + link.gap + lengths_[second];
     const std::size_t ends = ends_[first] + ends_[second] - ends_used(link);
-    sets_.unite(first, second);
-    lengths_[sets_.of(first)] = length;
-    ends_[sets_.of(first)] = ends;
+    sets_.union_set(first, second);
+    lengths_[sets_.find_set(first)] = length;
+    ends_[sets_.find_set(first)] = ends;
   }
 
 private:
   static std::size_t ends_used(const Link& link) { return link.to.end ? 2 : 1; }
 
-  DisjointSets sets_;
+  boost::disjoint_sets_with_storage<> sets_;
   double length_max_;
   std::size_t ends_max_;
   // Of the tube that a set stands for.
@@ -327,13 +303,14 @@ std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, co
 
 std::vector<std::vector<std::size_t>> linked_fragments(std::size_t fragments, const std::vector<Link>& links,
                                                        const std::vector<std::size_t>& chosen) {
-  DisjointSets tubes(fragments);
-  for (const std::size_t i : chosen) tubes.unite(links[i].fragment, links[i].to.fragment);
+  boost::disjoint_sets_with_storage<> tubes(fragments);
+  for (const std::size_t i : chosen) tubes.union_set(links[i].fragment, links[i].to.fragment);
   std::map<std::size_t, std::vector<std::size_t>> members;
-  for (std::size_t i = 0; i < fragments; ++i) members[tubes.of(i)].push_back(i);
+  for (std::size_t i = 0; i < fragments; ++i) members[tubes.find_set(i)].push_back(i);
   std::vector<std::vector<std::size_t>> result;
   result.reserve(members.size());
   for (auto& [tube, list] : members) result.push_back(std::move(list));
+  std::ranges::sort(result);
   return result;
 }
 

@@ -82,7 +82,7 @@ std::vector<Link> find_links(const std::vector<Fragment>& fragments, const Range
 std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
                                       const KnownScene& known, const LinkSettings& settings);
 
-/// The fragments of each tube that the chosen links make, in ascending order.
+/// The fragments of each tube that the chosen links make: each ascending, the tubes by their first.
 std::vector<std::vector<std::size_t>> linked_fragments(std::size_t fragments, const std::vector<Link>& links,
                                                        const std::vector<std::size_t>& chosen);
 

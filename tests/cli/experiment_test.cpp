@@ -7,6 +7,7 @@
 #include <string>
 
 #include "../support/program.hpp"
+#include "../support/recipe_text.hpp"
 
 namespace tanglebin {
 namespace {
@@ -18,21 +19,7 @@ using test::TemporaryDirectory;
 using test::write_bytes;
 using testing::HasSubstr;
 
-constexpr const char* recipe = R"(
-seed = 3
-[scanner]
-width = 240
-height = 150
-[[set]]
-name = "A"
-tubes = [1, 2]
-cases = 2
-[set.tube]
-radius = 0.0125
-mass = 0.5
-length = 0.5
-bend_max_deg = 30
-)";
+const std::string recipe = test::recipe_text({.seed = 3, .width = 240, .tubes = "[1, 2]", .cases = 2});
 
 class ExperimentCommand : public testing::Test {
 protected:

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "../support/program.hpp"
+#include "../support/recipe_text.hpp"
 
 namespace tanglebin {
 namespace {
@@ -24,21 +25,7 @@ using test::TemporaryDirectory;
 using test::write_bytes;
 using testing::HasSubstr;
 
-constexpr const char* recipe = R"(
-seed = 6
-[scanner]
-width = 192
-height = 120
-[[set]]
-name = "A"
-tubes = [1]
-cases = 40
-[set.tube]
-radius = 0.0125
-mass = 0.5
-length = 0.5
-bend_max_deg = 30
-)";
+const std::string recipe = test::recipe_text({.seed = 6, .width = 192, .tubes = "[1]", .cases = 40});
 
 class FullDisk : public testing::Test {
 protected:

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "../support/program.hpp"
+#include "../support/recipe_text.hpp"
 
 namespace tanglebin {
 namespace {
@@ -31,21 +32,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
-constexpr const char* recipe = R"(
-seed = 5
-[scanner]
-width = 48
-height = 30
-[[set]]
-name = "A"
-tubes = [1]
-cases = 300
-[set.tube]
-radius = 0.0125
-mass = 0.5
-length = 0.5
-bend_max_deg = 30
-)";
+const std::string recipe = test::recipe_text({.seed = 5, .width = 48, .tubes = "[1]", .cases = 300});
 
 /// The program at work, whose standard output is read line by line.
 class RunningProgram {

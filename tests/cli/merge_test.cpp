@@ -5,6 +5,7 @@
 #include <string>
 
 #include "../support/program.hpp"
+#include "../support/recipe_text.hpp"
 
 namespace tanglebin {
 namespace {
@@ -16,21 +17,7 @@ using test::TemporaryDirectory;
 using test::write_bytes;
 using testing::HasSubstr;
 
-constexpr const char* recipe = R"(
-seed = 3
-[scanner]
-width = 96
-height = 60
-[[set]]
-name = "A"
-tubes = [1]
-cases = 4
-[set.tube]
-radius = 0.0125
-mass = 0.5
-length = 0.5
-bend_max_deg = 30
-)";
+const std::string recipe = test::recipe_text({.seed = 3, .width = 96, .tubes = "[1]", .cases = 4});
 
 class Merge : public testing::Test {
 protected:
