@@ -1,7 +1,6 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -20,27 +19,43 @@ struct LearnArguments {
   bool json = false;
 };
 
-void learn(const LearnArguments& arguments) {
-  const Dataset dataset = read_dataset(arguments.dataset);
+std::vector<LinkExample> examples_of(const Dataset& dataset) {
   std::vector<LinkExample> examples;
   for (const CaseId& id : cases(dataset)) {
     const std::vector<LinkExample> of_case = link_examples(dataset, id);
     examples.insert(examples.end(), of_case.begin(), of_case.end());
   }
+  return examples;
+}
+
+/// Examples of one kind.
+struct Count {
+  int links = 0;
+  int true_links = 0;
+};
+
+Count count(const std::vector<LinkExample>& examples, LinkKind kind) {
+  Count result;
+  for (const LinkExample& example : examples) {
+    if (example.kind != kind) continue;
+    ++result.links;
+    if (example.is_true) ++result.true_links;
+  }
+  return result;
+}
+
+void learn(const LearnArguments& arguments) {
+  const std::vector<LinkExample> examples = examples_of(read_dataset(arguments.dataset));
   const LinkWeights weights = learn_weights(examples);
   nlohmann::ordered_json json;
-  const std::vector<std::pair<std::string, LinkKind>> kinds = {{"chain_ends", LinkKind::chain_ends},
-                                                               {"tree_ends", LinkKind::tree_ends},
-                                                               {"junction", LinkKind::junction}};
-  for (const auto& [name, kind] : kinds) {
-    const auto is_of_kind = [&](const LinkExample& example) { return example.kind == kind; };
-    const auto links = std::ranges::count_if(examples, is_of_kind);
-    const auto true_links = std::ranges::count_if(
-        examples, [&](const LinkExample& example) { return is_of_kind(example) && example.is_true; });
+  for (const auto& [name, kind] : {std::pair{"chain_ends", LinkKind::chain_ends},
+                                   {"tree_ends", LinkKind::tree_ends},
+                                   {"junction", LinkKind::junction}}) {
+    const auto [links, true_links] = count(examples, kind);
     json[name] = {{"links", links}, {"true", true_links}, {"weights", weights.of(kind)}};
     if (!arguments.json) {
       print_out("{:<10} {{{:.4f}}}  of {} links, {} true\n", name, fmt::join(weights.of(kind), ", "), links,
-                 true_links);
+                true_links);
     }
   }
   if (arguments.json) print_out("{}\n", json.dump());
