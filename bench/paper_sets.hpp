@@ -14,7 +14,7 @@ inline Recipe paper_set(const std::string& name, double bend_max_deg) {
   recipe.camera = camera_preset("paper");
   SetRecipe set;
   set.name = name;
-  set.spec.segments[0].bend_max = bend_max_deg * std::numbers::pi / 180;
+  set.kinds[0].segments[0].bend_max = bend_max_deg * std::numbers::pi / 180;
   recipe.sets.push_back(set);
   return recipe;
 }

@@ -86,14 +86,18 @@ std::uint64_t parse_hexadecimal(std::string_view text, const std::string& option
   return value;
 }
 
-double parse_length(std::string_view text, const std::string& option) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc() && end == text.data() + text.size();
-  if (!is_number || !std::isfinite(value) || value <= 0) {
-    throw InputError({"", 0, option}, quoted(text), "a positive number");
+std::vector<double> parse_lengths(std::string_view text, const std::string& option) {
+  std::vector<double> lengths;
+  for (const std::string_view part : split(text, ',')) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    const bool is_number = error == std::errc() && end == part.data() + part.size();
+    if (!is_number || !std::isfinite(value) || value <= 0) {
+      throw InputError({"", 0, option}, quoted(part), "a positive number");
+    }
+    lengths.push_back(value);
   }
-  return value;
+  return lengths;
 }
 
 std::vector<double> parse_ratios(std::string_view text, const std::string& option) {

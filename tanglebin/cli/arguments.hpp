@@ -38,8 +38,8 @@ Range parse_range(std::string_view text, const std::string& option);
 /// "1f" is 31. Throws InputError naming `option` for anything but a hexadecimal number of at most 64 bits.
 std::uint64_t parse_hexadecimal(std::string_view text, const std::string& option);
 
-/// A length: a positive number. Throws InputError naming `option` for anything else.
-double parse_length(std::string_view text, const std::string& option);
+/// "0.4" or "0.4,0.5": positive numbers. Throws InputError naming `option` for anything else.
+std::vector<double> parse_lengths(std::string_view text, const std::string& option);
 
 /// "0.1,0.3" or "0.1:1.0:0.1" (first:last:step, both ends in it): the double nearest to each decimal number,
 /// ascending. Throws InputError naming `option` for anything else: a ratio that is not in (0, 1] or has more

@@ -64,7 +64,7 @@ void print_json(const ExperimentArguments& arguments, const ExperimentSummary& s
                                     {"cases", mean.cases},
                                     {"mean", mean.mean}});
   }
-  print_out("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  print_json_line(json);
 }
 
 // A line for each method and set.

@@ -27,11 +27,6 @@ nlohmann::ordered_json json_of(const FillReport& report, const FillSummary& summ
   return json;
 }
 
-// A directory's name may be any bytes.
-std::string text_of(const nlohmann::ordered_json& json) {
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 void print_text(const FillReport& report, const FillSummary& summary, double seconds) {
   const RunProgress& run = summary.progress;
   const DatasetSummary& dataset = summary.dataset;
@@ -56,9 +51,9 @@ void report_fill(const FillReport& report, const FillSummary& summary, double se
   if (report.progress == ProgressStyle::json) {
     nlohmann::ordered_json event{{"event", "end"}};
     event.update(json_of(report, summary, seconds));
-    print_out("{}\n", text_of(event));
+    print_json_line(event);
   } else if (report.json) {
-    print_out("{}\n", text_of(json_of(report, summary, seconds)));
+    print_json_line(json_of(report, summary, seconds));
   } else {
     print_text(report, summary, seconds);
   }

@@ -58,7 +58,7 @@ void learn(const LearnArguments& arguments) {
                 true_links);
     }
   }
-  if (arguments.json) print_out("{}\n", json.dump());
+  if (arguments.json) print_json_line(json);
 }
 
 }  // namespace

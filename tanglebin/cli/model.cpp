@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/print.hpp"
@@ -38,20 +39,27 @@ struct ModelArguments {
   std::int64_t seed = 0;
   std::string bin = "paper";
   std::string scanner = "paper";
-  std::string radius = fmt::format("{}", KnownScene().radius);
-  double length = KnownScene().length;
-  int junctions = KnownScene().junctions;
+  std::string radius = fmt::format("{}", TubeKind().radius);
+  std::string length = fmt::format("{}", TubeKind().length);
+  int junctions = TubeKind().junctions;
   std::optional<std::string> debug_directory;
   bool json = false;
 };
 
 KnownScene known_scene(const ModelArguments& arguments, const PointCloud& cloud) {
-  KnownScene known{.bin = bin_preset(arguments.bin),
-                   .camera = camera_preset(arguments.scanner),
-                   .length = arguments.length,
-                   .junctions = arguments.junctions};
-  known.radius = arguments.radius == "auto" ? estimate_radius(cloud, known, arguments.cloud)
-                                            : parse_length(arguments.radius, "--radius");
+  KnownScene known{.bin = bin_preset(arguments.bin), .camera = camera_preset(arguments.scanner)};
+  const std::vector<double> radii = arguments.radius == "auto"
+                                        ? std::vector{estimate_radius(cloud, known, arguments.cloud)}
+                                        : parse_lengths(arguments.radius, "--radius");
+  const std::vector<double> lengths = parse_lengths(arguments.length, "--length");
+  if (lengths.size() != 1 && lengths.size() != radii.size())
+    throw InputError({"", 0, "--length"}, fmt::format("{} lengths", lengths.size()),
+                     fmt::format("one, or one for each radius: {}", radii.size()));
+  known.kinds.clear();
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const double length = lengths.size() == 1 ? lengths[0] : lengths[i];
+    known.kinds.push_back({.radius = radii[i], .length = length, .junctions = arguments.junctions});
+  }
   return known;
 }
 
@@ -88,16 +96,17 @@ void print_summary(const ModelArguments& arguments, const KnownScene& known, con
   if (arguments.json) {
     nlohmann::ordered_json json{{"cloud", arguments.out},
                                 {"points", model.labels.size()},
-                                {"radius", known.radius},
+                                {"radii", nlohmann::ordered_json::array()},
                                 {"tubes", model.tubes.size()}};
+    for (const TubeKind& kind : known.kinds) json["radii"].push_back(kind.radius);
     for (const Step& step : model.steps) {
       json["steps"].push_back(
           {{"name", step.name}, {"seconds", step.seconds}, {"count", step.count}, {"of", step.of}});
     }
-    print_out("{}\n", json.dump());
+    print_json_line(json);
     return;
   }
-  if (arguments.radius == "auto") print_out("radius   {:>8.5f} m\n", known.radius);
+  if (arguments.radius == "auto") print_out("radius   {:>8.5f} m\n", known.kinds[0].radius);
   for (const Step& step : model.steps) {
     print_out("{:<8} {:>8.3f} s  {:>7} {}\n", step.name, step.seconds, step.count, step.of);
   }
@@ -109,7 +118,7 @@ std::vector<NamedPicture> pictures(const PointCloud& cloud, const KnownScene& kn
   switch (method_named(arguments.method)) {
     case Method::paper:
       return pictures_of_steps(cloud, model_as_in_paper(cloud, known, arguments.downsample, seed), known.bin,
-                               known.radius, arguments.cloud);
+                               known.kinds[0].radius, arguments.cloud);
     case Method::axis:
       return pictures_of_steps(cloud, model_by_axes(cloud, known, arguments.downsample, seed), known.bin,
                                arguments.cloud);
@@ -164,9 +173,14 @@ void add_model(CLI::App& app) {
   command->add_option("--scanner", arguments->scanner, "Camera: paper or zivid-one-plus-l")
       ->capture_default_str();
   command
-      ->add_option("--radius", arguments->radius, "Radius of the tubes, m; auto estimates it from the cloud")
+      ->add_option(
+          "--radius", arguments->radius,
+          "Radius of the tubes, m; one for each kind of tubes: 0.008,0.0125; auto estimates one from the "
+          "cloud")
       ->capture_default_str();
-  command->add_option("--length", arguments->length, "Length of each tube, m, its branches included")
+  command
+      ->add_option("--length", arguments->length,
+                   "Length of each tube, m, its branches included; or one for each radius: 0.4,0.5")
       ->capture_default_str();
   command
       ->add_option("--junctions", arguments->junctions,

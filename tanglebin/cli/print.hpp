@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,11 @@ template <typename... Values>
 void print_out(fmt::format_string<Values...> format, Values&&... values) {
   const std::string text = fmt::format(format, std::forward<Values>(values)...);
   std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+/// Prints a line of JSON to standard output. File names may be any bytes: what is not UTF-8 is replaced.
+inline void print_json_line(const nlohmann::ordered_json& json) {
+  print_out("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 /// Prints formatted text to standard error.

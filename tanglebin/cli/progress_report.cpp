@@ -23,7 +23,7 @@ std::size_t remaining(const RunProgress& progress) {
 
 // A program at the other end of a pipe is to have the event now.
 void print_event(const nlohmann::ordered_json& event) {
-  print_out("{}\n", event.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  print_json_line(event);
   std::fflush(stdout);
 }
 

@@ -69,7 +69,7 @@ void print_summary(const ScanArguments& arguments, const Scan& view, const std::
     for (const Tube& tube : tubes) {
       json["tubes"].push_back({{"label", tube.id}, {"points", points[static_cast<std::size_t>(tube.id)]}});
     }
-    print_out("{}\n", json.dump());
+    print_json_line(json);
     return;
   }
   std::size_t tube_points = 0;

@@ -93,9 +93,14 @@ nlohmann::ordered_json tubes_json(const TubesScore& score) {
   return {{"centre_line_error", number_or_null(score.centre_line_error)},
           {"centre_line_error_p95", number_or_null(score.centre_line_error_p95)},
           {"centre_line_coverage", score.centre_line_coverage},
+          {"complete_tubes", score.complete_tubes},
+          {"length_error", number_or_null(score.length_error)},
           {"true_joins", score.true_joins},
           {"joins_found", score.joins_found},
-          {"joins_made", score.joins_made}};
+          {"joins_made", score.joins_made},
+          {"true_junctions", score.true_junctions},
+          {"junctions_found", score.junctions_found},
+          {"junctions_made", score.junctions_made}};
 }
 
 void print_tubes(const Score& score) {
@@ -129,6 +134,12 @@ void print_tubes_score(const TubesScore& score) {
   print_out("centre-line coverage {:.3f}\n", score.centre_line_coverage);
   print_out("joins                {} of {} missing, {} of {} wrong\n", score.true_joins - score.joins_found,
             score.true_joins, score.joins_made - score.joins_found, score.joins_made);
+  print_out("complete tubes       {}{}\n", score.complete_tubes,
+            score.length_error ? fmt::format("  length off by {:.2f} %", 100 * *score.length_error) : "");
+  if (score.true_junctions > 0 || score.junctions_made > 0) {
+    print_out("junctions            {} of {} found, {} made\n", score.junctions_found, score.true_junctions,
+              score.junctions_made);
+  }
 }
 
 void print_text(const Score& score, const std::optional<TubesScore>& tubes_score) {
@@ -170,7 +181,7 @@ void score_labels(const ScoreArguments& arguments) {
     nlohmann::ordered_json json = score_json(score);
     if (tubes_score) json.update(tubes_json(*tubes_score));
     if (arguments.confusion) json["confusion"] = confusion_json(score);
-    print_out("{}\n", json.dump());
+    print_json_line(json);
     return;
   }
   print_text(score, tubes_score);

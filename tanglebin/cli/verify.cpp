@@ -77,9 +77,7 @@ void verify_and_report(const VerifyArguments& arguments) {
     }
   }
   if (arguments.json || arguments.progress == ProgressStyle::json) {
-    print_out(
-        "{}\n",
-        json_of(arguments, summary, repaired).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_json_line(json_of(arguments, summary, repaired));
   } else {
     print_text(arguments, summary, repaired);
   }

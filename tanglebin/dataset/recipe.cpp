@@ -380,6 +380,15 @@ TubeSpec read_tube(const TomlTable& table) {
   return spec;
 }
 
+// One [set.tube], or a [[set.tube]] for each kind.
+std::vector<TubeSpec> read_kinds(const TomlTable& set) {
+  if (!set.is_array("tube")) return {read_tube(set.table("tube"))};
+  std::vector<TubeSpec> kinds;
+  for (const TomlTable& table : set.tables("tube")) kinds.push_back(read_tube(table));
+  if (kinds.empty()) set.fail("tube", "none", "at least one [[set.tube]]");
+  return kinds;
+}
+
 SetRecipe read_set(const TomlTable& table) {
   table.allow({"name", "tubes", "cases", "tube"});
   table.require({"name", "tubes", "tube"});
@@ -387,7 +396,7 @@ SetRecipe read_set(const TomlTable& table) {
   table.get("name", set.name);
   table.get("tubes", set.tubes);
   table.get("cases", set.cases);
-  set.spec = read_tube(table.table("tube"));
+  set.kinds = read_kinds(table);
   return set;
 }
 
@@ -522,8 +531,8 @@ std::string output_text(const OutputSettings& output) {
          (output.properties == PointProperties{} ? "" : fields_text(property_fields, output.properties));
 }
 
-std::string tube_text(const TubeSpec& spec) {
-  std::string text = "\n[set.tube]\n" + fields_text(tube_fields, spec);
+std::string tube_text(const TubeSpec& spec, std::string_view header) {
+  std::string text = fmt::format("\n{}\n", header) + fields_text(tube_fields, spec);
   const bool is_chain = spec.segments.size() == 1;
   for (const Segment& segment : spec.segments) {
     if (!is_chain) text += "\n[[set.tube.segment]]\n" + fields_text(segment_end_fields, segment);
@@ -533,9 +542,11 @@ std::string tube_text(const TubeSpec& spec) {
 }
 
 std::string set_text(const SetRecipe& set) {
-  return fmt::format("\n[[set]]\nname = \"{}\"\ntubes = [{}]\ncases = {}\n", set.name,
-                     fmt::join(set.tubes, ", "), set.cases) +
-         tube_text(set.spec);
+  std::string text = fmt::format("\n[[set]]\nname = \"{}\"\ntubes = [{}]\ncases = {}\n", set.name,
+                                 fmt::join(set.tubes, ", "), set.cases);
+  const bool is_single = set.kinds.size() == 1;
+  for (const TubeSpec& kind : set.kinds) text += tube_text(kind, is_single ? "[set.tube]" : "[[set.tube]]");
+  return text;
 }
 
 std::string text_of(const Recipe& recipe) {
@@ -633,6 +644,16 @@ std::string name_of(const RandomNumber& number, const Recipe& recipe) {
 }
 
 }  // namespace
+
+const TubeSpec& kind_of(const SetRecipe& set, int tube) {
+  return set.kinds[static_cast<std::size_t>(tube - 1) % set.kinds.size()];
+}
+
+const SetRecipe& set_named(const Recipe& recipe, const std::string& name) {
+  const auto found = std::ranges::find(recipe.sets, name, &SetRecipe::name);
+  if (found == recipe.sets.end()) throw InputError({"", 0, "set"}, excerpt(name), "a set of the recipe");
+  return *found;
+}
 
 std::vector<Scanner> scanners(const Recipe& recipe) {
   std::vector<Scanner> all{{recipe.scanner_name, recipe.camera, recipe.sensor}};

@@ -46,12 +46,13 @@ struct DrawnNumber {
   double value;
 };
 
-/// A kind of tubes and how many cases of how many of them.
+/// What tubes, and how many cases of how many of them.
 struct SetRecipe {
   std::string name;        ///< letters, digits, '-' and '_': part of a folder's name
   std::vector<int> tubes;  ///< numbers of tubes, each its own folder
   int cases = 20;          ///< of each number of tubes
-  TubeSpec spec;
+  /// In turn: with two kinds, tubes 1, 3, 5, … of a case are of the first.
+  std::vector<TubeSpec> kinds = std::vector<TubeSpec>(1);
 };
 
 /// Everything that a dataset follows from.
@@ -68,6 +69,12 @@ struct Recipe {
   std::vector<SetRecipe> sets;
   std::vector<RandomSetting> random;  ///< above they have the lowest number that can be drawn
 };
+
+/// What the tube of this id (1, 2, …) of a case is drawn from.
+const TubeSpec& kind_of(const SetRecipe& set, int tube);
+
+/// The set of this name. Throws InputError where there is none.
+const SetRecipe& set_named(const Recipe& recipe, const std::string& name);
 
 /// The first scanner and the further ones.
 std::vector<Scanner> scanners(const Recipe& recipe);

@@ -80,8 +80,12 @@ void validate_set(const SetRecipe& set, const Bin& bin, const std::string& where
   validate_name(set.name, where + ".name");
   validate_numbers_of_tubes(set.tubes, where + ".tubes");
   expect(set.cases >= 1, where + ".cases", fmt::format("{}", set.cases), "at least 1");
-  validate(set.spec, where + ".tube");
-  validate_fit(set.spec, bin, where + ".tube");
+  expect(!set.kinds.empty(), where + ".tube", "none", "at least one kind of tubes");
+  for (std::size_t i = 0; i < set.kinds.size(); ++i) {
+    const std::string kind = set.kinds.size() == 1 ? where + ".tube" : fmt::format("{}.tube[{}]", where, i);
+    validate(set.kinds[i], kind);
+    validate_fit(set.kinds[i], bin, kind);
+  }
 }
 
 // "A" with 11 tubes and "A1" with one would both be in A11.

@@ -31,16 +31,10 @@ private:
   Clock::time_point start_ = Clock::now();
 };
 
-const TubeSpec& spec_of(const Recipe& recipe, const std::string& set) {
-  const auto found = std::ranges::find(recipe.sets, set, &SetRecipe::name);
-  if (found == recipe.sets.end()) throw InputError({"", 0, "set"}, set, "a set of the recipe");
-  return found->spec;
-}
-
 // Algorithm 1, above the bin.
-std::vector<Tube> draw_tubes(Rng& rng, const TubeSpec& spec, int count, const Bin& bin) {
+std::vector<Tube> draw_tubes(Rng& rng, const SetRecipe& set, int count, const Bin& bin) {
   std::vector<Tube> tubes;
-  for (int id = 1; id <= count; ++id) tubes.push_back(draw_tube(rng, spec, id));
+  for (int id = 1; id <= count; ++id) tubes.push_back(draw_tube(rng, kind_of(set, id), id));
   spawn(rng, tubes, bin);
   return tubes;
 }
@@ -71,7 +65,7 @@ std::string no_valid_scene(const CaseId& id, const std::vector<Rejection>& rejec
 }  // namespace
 
 Scene simulate(const Recipe& recipe, const CaseId& id) {
-  const TubeSpec& spec = spec_of(recipe, id.set);
+  const SetRecipe& set = set_named(recipe, id.set);
   StageTimes times;
   std::vector<Rejection> rejections;
   for (int attempt = 1; attempt <= recipe.attempts; ++attempt) {
@@ -79,7 +73,7 @@ Scene simulate(const Recipe& recipe, const CaseId& id) {
     Rng rng(seed);
     const std::vector<Tube> tubes = [&] {
       const Stopwatch watch(times.generate);
-      return draw_tubes(rng, spec, id.tubes, recipe.bin);
+      return draw_tubes(rng, set, id.tubes, recipe.bin);
     }();
     Settled heap = [&] {
       const Stopwatch watch(times.settle);
@@ -98,8 +92,7 @@ Scene simulate(const Recipe& recipe, const CaseId& id) {
     return {std::move(heap.tubes), std::move(first),     std::move(scans),      seed,
             heap.simulated,        heap.largest_overlap, std::move(rejections), times};
   }
-  throw InputError({"", 0, fmt::format("{}/{}", folder_name(id.set, id.tubes), id.number)},
-                   no_valid_scene(id, rejections));
+  throw InputError({"", 0, name_of(id)}, no_valid_scene(id, rejections));
 }
 
 }  // namespace tanglebin

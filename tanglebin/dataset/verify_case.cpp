@@ -159,8 +159,15 @@ private:
     if (tubes.size() != static_cast<std::size_t>(record_.id.tubes)) {
       add(path, fmt::format("found {} tubes, expected {}", tubes.size(), record_.id.tubes));
     }
-    const auto set = std::ranges::find(recipe_.sets, record_.id.set, &SetRecipe::name);
-    for (Tube& tube : tubes) tube.mass = set->spec.mass;  // the format does not carry it
+    const SetRecipe& set = set_named(recipe_, record_.id.set);
+    for (Tube& tube : tubes) {
+      const TubeSpec& kind = kind_of(set, tube.id);
+      if (tube.radius != kind.radius) {
+        add(path,
+            fmt::format("tube {}: found a radius of {} m, expected {} m", tube.id, tube.radius, kind.radius));
+      }
+      tube.mass = kind.mass;  // the format does not carry it
+    }
     tubes_ = std::move(tubes);
   }
 

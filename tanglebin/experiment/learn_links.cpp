@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
 
 #include "tanglebin/experiment/run.hpp"
 #include "tanglebin/model/axis_method.hpp"
@@ -22,14 +21,19 @@ using FeatureMatrix = Eigen::Matrix<double, link_features, link_features>;
 /// Where the fragments of a model are on the true tubes.
 class TrueLinks {
 public:
-  TrueLinks(const CaseData& data, const AxisModel& found) : fragments_(found.fragments) {
+  TrueLinks(const CaseData& data, const std::vector<std::size_t>& filtered,
+            const std::vector<Fragment>& fragments)
+      : fragments_(fragments) {
     for (const Tube& tube : data.tubes) lines_.emplace(tube.id, CentreLine(tube));
     const std::vector<std::int32_t> labels = truth_labels(data.cloud, data.cloud_file);
     for (const Fragment& fragment : fragments_) {
       std::map<std::int32_t, int> counts;
-      for (const std::size_t point : fragment.points) ++counts[labels[found.model.filtered[point]]];
+      for (const std::size_t point : fragment.points) ++counts[labels[filtered[point]]];
       tubes_.push_back(
           std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; })->first);
+      const Vector3d& middle = fragment.nodes[fragment.nodes.size() / 2];
+      const bool is_on_a_tube = tubes_.back() > bin_label;
+      middles_.push_back(is_on_a_tube ? lines_.at(tubes_.back()).nearest(middle).place : Place{});
     }
   }
 
@@ -44,17 +48,11 @@ public:
   }
 
 private:
-  Place middle(const CentreLine& line, std::size_t fragment) const {
-    const std::vector<Vector3d>& nodes = fragments_[fragment].nodes;
-    return line.nearest(nodes[nodes.size() / 2]).place;
-  }
-
   // Whether the way out of a fragment's end is the way along the tube to another fragment.
   bool leads(const CentreLine& line, const FragmentEnd& end, std::size_t from, std::size_t to) const {
     constexpr double outward = 0.004;  // m, enough to tell the two ends of the shortest fragment apart
     const Place place = line.nearest(fragments_[from].nodes[end.node] + outward * end.outward).place;
-    const Place goal = middle(line, to);
-    return line.way(place, goal) < line.way(middle(line, from), goal);
+    return line.way(place, middles_[to]) < line.way(middles_[from], middles_[to]);
   }
 
   // Whether the tube leads from the end straight to the junction, not by another one.
@@ -68,13 +66,11 @@ private:
 
   bool is_nothing_between(const CentreLine& line, std::size_t from, std::size_t to) const {
     constexpr double rounding = 0.0002;  // m
-    const Place first = middle(line, from);
-    const Place last = middle(line, to);
-    const double way = line.way(first, last);
+    const double way = line.way(middles_[from], middles_[to]);
     for (std::size_t other = 0; other < fragments_.size(); ++other) {
       if (other == from || other == to || tubes_[other] != tubes_[from]) continue;
-      const Place place = middle(line, other);
-      if (line.way(first, place) + line.way(place, last) < way + rounding) return false;
+      const Place& place = middles_[other];
+      if (line.way(middles_[from], place) + line.way(place, middles_[to]) < way + rounding) return false;
     }
     return true;
   }
@@ -82,6 +78,7 @@ private:
   const std::vector<Fragment>& fragments_;
   std::map<std::int32_t, CentreLine> lines_;
   std::vector<std::int32_t> tubes_;  // the true label of most points of each fragment
+  std::vector<Place> middles_;       // of each fragment on its tube; of one on none, nothing
 };
 
 LinkFeatures logistic_regression(const std::vector<LinkExample>& examples, LinkKind kind) {
@@ -116,10 +113,11 @@ std::vector<LinkExample> link_examples(const Dataset& dataset, const CaseId& id)
   constexpr double any = 1e9;
   settings.link.chain_prior = settings.link.tree_prior = settings.link.junction_prior = any;
   const AxisModel found = model_by_axes(data.cloud, known_scene(recipe_of(dataset, id), id), 1, 0, settings);
-  const TrueLinks truth(data, found);
   std::vector<LinkExample> examples;
-  examples.reserve(found.links.size());
-  for (const Link& link : found.links) examples.push_back({link.kind, link.features, truth.has(link)});
+  for (const AxisSteps& kind : found.kinds) {
+    const TrueLinks truth(data, found.model.filtered, kind.fragments);
+    for (const Link& link : kind.links) examples.push_back({link.kind, link.features, truth.has(link)});
+  }
   return examples;
 }
 

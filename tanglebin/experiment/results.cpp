@@ -117,9 +117,14 @@ std::string result_json(const RunId& run, const Model& model, const ModelScore& 
   json["tubes_found"] = model.tubes.size();
   json["centre_line_error"] = tubes.centre_line_error ? Json(*tubes.centre_line_error) : Json();
   json["centre_line_coverage"] = tubes.centre_line_coverage;
+  json["complete_tubes"] = tubes.complete_tubes;
+  json["length_error"] = tubes.length_error ? Json(*tubes.length_error) : Json();
   json["true_joins"] = tubes.true_joins;
   json["joins_found"] = tubes.joins_found;
   json["joins_made"] = tubes.joins_made;
+  json["true_junctions"] = tubes.true_junctions;
+  json["junctions_found"] = tubes.junctions_found;
+  json["junctions_made"] = tubes.junctions_made;
   json["counts"] = Json::object();
   for (const Step& step : model.steps) json["counts"][step.name] = step.count;
   return json.dump();

@@ -11,10 +11,6 @@
 namespace tanglebin {
 namespace {
 
-const TubeSpec& spec_of(const Recipe& recipe, const std::string& set) {
-  return std::ranges::find(recipe.sets, set, &SetRecipe::name)->spec;
-}
-
 // Named nodes at which three segments or more meet.
 int junctions(const TubeSpec& spec) {
   std::map<int, int> segments_at;
@@ -24,6 +20,12 @@ int junctions(const TubeSpec& spec) {
   }
   return static_cast<int>(
       std::ranges::count_if(segments_at, [](const auto& node) { return node.second > 2; }));
+}
+
+TubeKind known_kind(const TubeSpec& spec) {
+  double length = 0;
+  for (const Segment& segment : spec.segments) length += segment.length;
+  return {.radius = spec.radius, .length = length, .junctions = junctions(spec)};
 }
 
 PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int32_t> labels) {
@@ -37,14 +39,18 @@ PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int
 }  // namespace
 
 KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
-  const TubeSpec& spec = spec_of(recipe, id.set);
-  double length = 0;
-  for (const Segment& segment : spec.segments) length += segment.length;
-  return {.bin = recipe.bin,
-          .camera = recipe.camera,
-          .radius = spec.radius,
-          .length = length,
-          .junctions = junctions(spec)};
+  KnownScene known{.bin = recipe.bin, .camera = recipe.camera, .kinds = {}};
+  for (const TubeSpec& spec : set_named(recipe, id.set).kinds) {
+    const TubeKind kind = known_kind(spec);
+    const auto same = std::ranges::find(known.kinds, kind.radius, &TubeKind::radius);
+    if (same == known.kinds.end()) {
+      known.kinds.push_back(kind);
+    } else {
+      same->length = std::max(same->length, kind.length);
+      same->junctions = std::max(same->junctions, kind.junctions);
+    }
+  }
+  return known;
 }
 
 Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run, std::uint64_t seed) {

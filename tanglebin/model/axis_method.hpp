@@ -24,13 +24,19 @@ struct AxisSettings {
   LabelSettings label;
 };
 
-/// A model and what the steps before made of the cloud. Points are counted in model.filtered.
-struct AxisModel {
-  Model model;
+/// What the steps made of the points on one kind of tubes. Points are counted in Model::filtered.
+struct AxisSteps {
   AxisVotes votes;
   std::vector<Fragment> fragments;
   std::vector<Link> links;
-  std::vector<std::size_t> chosen;  ///< of the links
+  std::vector<std::size_t> chosen;              ///< of the links
+  std::vector<std::vector<std::size_t>> tubes;  ///< the fragments of each
+};
+
+/// A model and what the steps before made of the cloud, for each known kind of tubes.
+struct AxisModel {
+  Model model;
+  std::vector<AxisSteps> kinds;
 };
 
 /// Tubes by their axes (docs/algorithm.md): every point and its normal vote for a point on an axis of the

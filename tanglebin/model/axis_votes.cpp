@@ -36,25 +36,25 @@ std::vector<Vector3f> without_floor(const std::vector<Vector3f>& points, double 
 
 }  // namespace
 
-AxisVotes vote_for_axes(const std::vector<Vector3f>& points, const KnownScene& known,
-                        const VoteSettings& settings) {
+AxisVotes vote_for_axes(const std::vector<Vector3f>& points, const Bin& bin, const Camera& camera,
+                        double radius, const VoteSettings& settings) {
   const Vector3f nothing = Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
   AxisVotes result{std::vector(points.size(), nothing), std::vector(points.size(), nothing)};
 
-  const auto radius = static_cast<float>(known.radius);
-  const float clearance = radius * (1 - static_cast<float>(settings.bin_tolerance));
-  const BinBoxes bin = boxes_of(known.bin);
-  const PixelGrid grid(without_floor(points, settings.floor_margin * known.radius), known.camera);
-  const float reach = suitable_reach(grid, known.radius, settings.patch);
+  const auto depth = static_cast<float>(radius);  // of the axis under the surface
+  const float clearance = depth * (1 - static_cast<float>(settings.bin_tolerance));
+  const BinBoxes solid = boxes_of(bin);
+  const PixelGrid grid(without_floor(points, settings.floor_margin * radius), camera);
+  const float reach = suitable_reach(grid, radius, settings.patch);
   const std::vector<std::optional<Patch>> patches = surface_patches(grid, reach, settings.patch);
   for (std::size_t item = 0; item < patches.size(); ++item) {
     if (!patches[item]) continue;
     const Patch& patch = *patches[item];
     // The plane passes below the surface by the mean sagitta of the arc that the neighbours are on: their
     // variance across the tube over its diameter.
-    const float sagitta = patch.breadth * reach * reach / (2 * radius);
-    const Vector3f axis = grid.point(item) + patch.mean - patch.normal * (radius - sagitta);
-    if (!is_clear_of(bin, axis, clearance)) continue;
+    const float sagitta = patch.breadth * reach * reach / (2 * depth);
+    const Vector3f axis = grid.point(item) + patch.mean - patch.normal * (depth - sagitta);
+    if (!is_clear_of(solid, axis, clearance)) continue;
     result.votes[grid.indices()[item]] = axis;
     result.normals[grid.indices()[item]] = patch.normal;
   }

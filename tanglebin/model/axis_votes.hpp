@@ -21,10 +21,10 @@ struct AxisVotes {
   std::vector<Eigen::Vector3f> normals;  ///< unit, of the surface, towards the sensor
 };
 
-/// The surface's normal at a point of a tube of known radius leads to the tube's axis. Normals are those of
-/// planes through the neighbours in the camera's image; where two surfaces meet there is none. An axis that
-/// would lie in the bin's floor or walls, or too near to them, is not voted for.
-AxisVotes vote_for_axes(const std::vector<Eigen::Vector3f>& points, const KnownScene& known,
-                        const VoteSettings& settings);
+/// The surface's normal at a point of a tube of known radius (m) leads to the tube's axis. Normals are those
+/// of planes through the neighbours in the camera's image; where two surfaces meet there is none. An axis
+/// that would lie in the bin's floor or walls, or too near to them, is not voted for.
+AxisVotes vote_for_axes(const std::vector<Eigen::Vector3f>& points, const Bin& bin, const Camera& camera,
+                        double radius, const VoteSettings& settings);
 
 }  // namespace tanglebin

@@ -86,10 +86,10 @@ double share_seen_empty(const FragmentEnd& first, const FragmentEnd& second, con
 /// The tubes that links make of fragments.
 class Tubes {
 public:
-  Tubes(const std::vector<Fragment>& fragments, const KnownScene& known, const LinkSettings& settings)
+  Tubes(const std::vector<Fragment>& fragments, const TubeKind& kind, const LinkSettings& settings)
       : sets_(fragments.size()),
-        length_max_(known.length * (1 + settings.length_tolerance)),
-        ends_max_(static_cast<std::size_t>(known.junctions) + 2) {
+        length_max_(kind.length * (1 + settings.length_tolerance)),
+        ends_max_(static_cast<std::size_t>(kind.junctions) + 2) {
     for (const Fragment& fragment : fragments) {
       lengths_.push_back(fragment.length);
       ends_.push_back(fragment.ends.size());
@@ -126,59 +126,103 @@ private:
   std::vector<std::size_t> ends_;
 };
 
-// Adds links, the heaviest first, as long as ends are free and the tubes possible.
-void add_heaviest(std::vector<std::size_t>& chosen, const std::vector<Fragment>& fragments,
-                  const std::vector<Link>& links, const std::vector<WeightedPair>& pairs,
-                  std::size_t vertices, const KnownScene& known, const LinkSettings& settings) {
-  Tubes tubes(fragments, known, settings);
-  std::vector<bool> taken(vertices);
-  const auto take = [&](std::size_t i) {
-    taken[pairs[i].first] = taken[pairs[i].second] = true;
-    tubes.join(links[i]);
-  };
-  std::ranges::for_each(chosen, take);
-  std::vector<std::size_t> order(links.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return pairs[i].weight; });
-  for (const std::size_t i : order) {
-    if (taken[pairs[i].first] || taken[pairs[i].second] || !tubes.allow(links[i])) continue;
-    take(i);
-    chosen.push_back(i);
+/// What links there may be between some fragments, and how heavy they are.
+struct Candidates {
+  const std::vector<Fragment>& fragments;
+  const std::vector<Link>& links;
+  const std::vector<WeightedPair>& pairs;  ///< a link's two ends as vertices, and its weight
+  std::size_t vertices;
+  const TubeKind& kind;
+  const LinkSettings& settings;
+};
+
+/// Links of which no two share an end, and that together make possible tubes only.
+class Selection {
+public:
+  explicit Selection(const Candidates& candidates)
+      : candidates_(&candidates),
+        tubes_(candidates.fragments, candidates.kind, candidates.settings),
+        used_(candidates.vertices) {}
+
+  /// Takes a link where that is possible, and says whether it is.
+  bool take(std::size_t link) {
+    const auto& [first, second, weight] = candidates_->pairs[link];
+    if (used_[first] || used_[second] || !tubes_.allow(candidates_->links[link])) return false;
+    tubes_.join(candidates_->links[link]);
+    used_[first] = used_[second] = true;
+    weight_ += weight;
+    taken_.push_back(link);
+    return true;
   }
-  std::ranges::sort(chosen);
+
+  /// Takes these links, one after the other, where that is possible.
+  void take_possible(const std::vector<std::size_t>& links) {
+    for (const std::size_t link : links) take(link);
+  }
+
+  bool has_a_free_end(std::size_t link) const {
+    const auto& [first, second, weight] = candidates_->pairs[link];
+    return !used_[first] || !used_[second];
+  }
+
+  const std::vector<std::size_t>& taken() const { return taken_; }
+  double weight() const { return weight_; }
+
+private:
+  const Candidates* candidates_;
+  Tubes tubes_;
+  std::vector<bool> used_;
+  std::vector<std::size_t> taken_;
+  double weight_ = 0;
+};
+
+std::vector<std::size_t> heaviest_first(const std::vector<std::size_t>& links,
+                                        const std::vector<WeightedPair>& pairs) {
+  std::vector<std::size_t> order = links;
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return pairs[i].weight; });
+  return order;
+}
+
+// Goes on to a heavier selection as long as there is one that has a link which was left out so far, what can
+// be kept beside that, and the heaviest of the others. `order` has all links, the heaviest first.
+Selection exchanged(Selection best, const std::vector<std::size_t>& order, const Candidates& candidates) {
+  constexpr double rounding = 1e-9;
+  const Selection none(candidates);
+  for (bool is_better = true; is_better;) {
+    is_better = false;
+    for (const std::size_t i : order) {
+      if (!best.has_a_free_end(i)) continue;
+      Selection other = none;
+      other.take(i);
+      other.take_possible(best.taken());
+      other.take_possible(order);
+      if (other.weight() <= best.weight() + rounding) continue;
+      best = std::move(other);
+      is_better = true;
+    }
+  }
+  return best;
 }
 
 // The links that make one of the tubes impossible: of each such tube the weakest. They are found by taking
 // the links of the matching one after the other, the heaviest first.
 std::vector<std::size_t> impossible_links(const std::vector<std::size_t>& matching,
-                                          const std::vector<Fragment>& fragments,
-                                          const std::vector<Link>& links,
-                                          const std::vector<WeightedPair>& pairs, const KnownScene& known,
-                                          const LinkSettings& settings) {
-  std::vector<std::size_t> order = matching;
-  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return pairs[i].weight; });
-  Tubes tubes(fragments, known, settings);
+                                          const Candidates& candidates) {
+  Selection possible(candidates);
   std::vector<std::size_t> impossible;
-  for (const std::size_t i : order) {
-    if (tubes.allow(links[i])) {
-      tubes.join(links[i]);
-    } else {
-      impossible.push_back(i);
-    }
+  for (const std::size_t i : heaviest_first(matching, candidates.pairs)) {
+    if (!possible.take(i)) impossible.push_back(i);
   }
   return impossible;
 }
 
 // A matching of greatest weight between the ends in which every tube is possible: what makes one impossible
 // is given up, and the rest matched again.
-std::vector<std::size_t> possible_matching(const std::vector<Fragment>& fragments,
-                                           const std::vector<Link>& links, std::vector<WeightedPair> pairs,
-                                           std::size_t vertices, const KnownScene& known,
-                                           const LinkSettings& settings) {
+std::vector<std::size_t> possible_matching(const Candidates& candidates) {
+  std::vector<WeightedPair> pairs = candidates.pairs;
   for (;;) {
-    std::vector<std::size_t> matching = heaviest_matching(vertices, pairs);
-    const std::vector<std::size_t> impossible =
-        impossible_links(matching, fragments, links, pairs, known, settings);
+    std::vector<std::size_t> matching = heaviest_matching(candidates.vertices, pairs);
+    const std::vector<std::size_t> impossible = impossible_links(matching, candidates);
     if (impossible.empty()) return matching;
     for (const std::size_t i : impossible) pairs[i].weight = 0;
   }
@@ -187,9 +231,9 @@ std::vector<std::size_t> possible_matching(const std::vector<Fragment>& fragment
 /// Finds links between two fragments.
 class LinkFinder {
 public:
-  LinkFinder(const std::vector<Fragment>& fragments, const RangeImage& seen, const KnownScene& known,
+  LinkFinder(const std::vector<Fragment>& fragments, const RangeImage& seen, const TubeKind& kind,
              const LinkSettings& settings)
-      : fragments_(fragments), seen_(seen), known_(known), settings_(settings) {}
+      : fragments_(fragments), seen_(seen), kind_(kind), settings_(settings) {}
 
   void between_ends(std::size_t first, std::size_t second) {
     const Fragment& f = fragments_[first];
@@ -198,12 +242,12 @@ public:
       for (std::size_t j = 0; j < g.ends.size(); ++j) {
         const double gap = (g.ends[j].position - f.ends[i].position).norm();
         if (!may_span(gap, f, g)) continue;
-        take_if_likely({known_.junctions > 0 ? LinkKind::tree_ends : LinkKind::chain_ends,
+        take_if_likely({kind_.junctions > 0 ? LinkKind::tree_ends : LinkKind::chain_ends,
                         first,
                         i,
                         {second, g.ends[j].node, j},
                         gap,
-                        features_of(f.ends[i], g.ends[j], known_.radius)},
+                        features_of(f.ends[i], g.ends[j], kind_.radius)},
                        f.ends[i], g.ends[j]);
       }
     }
@@ -238,18 +282,18 @@ public:
 private:
   bool may_span(double gap, const Fragment& first, const Fragment& second) const {
     return gap <= settings_.gap_max &&
-           first.length + gap + second.length <= known_.length * (1 + settings_.length_tolerance);
+           first.length + gap + second.length <= kind_.length * (1 + settings_.length_tolerance);
   }
 
   void take_if_likely(const Link& link, const FragmentEnd& from, const FragmentEnd& to) {
     if (angle_of(link.features) > settings_.angle_max || weight_of(link, settings_) <= 0) return;
-    if (share_seen_empty(from, to, seen_, known_.radius) > settings_.seen_empty_max) return;
+    if (share_seen_empty(from, to, seen_, kind_.radius) > settings_.seen_empty_max) return;
     links_.push_back(link);
   }
 
   const std::vector<Fragment>& fragments_;
   const RangeImage& seen_;
-  const KnownScene& known_;
+  const TubeKind& kind_;
   const LinkSettings& settings_;
   std::vector<Link> links_;
 };
@@ -269,19 +313,19 @@ const LinkFeatures& LinkWeights::of(LinkKind kind) const {
 }
 
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
-                             const KnownScene& known, const LinkSettings& settings) {
-  LinkFinder finder(fragments, seen, known, settings);
+                             const TubeKind& kind, const LinkSettings& settings) {
+  LinkFinder finder(fragments, seen, kind, settings);
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     for (std::size_t j = 0; j < fragments.size(); ++j) {
       if (i < j) finder.between_ends(i, j);
-      if (i != j && known.junctions > 0) finder.to_junction(i, j);
+      if (i != j && kind.junctions > 0) finder.to_junction(i, j);
     }
   }
   return finder.found();
 }
 
 std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
-                                      const KnownScene& known, const LinkSettings& settings) {
+                                      const TubeKind& kind, const LinkSettings& settings) {
   // The graph has a vertex for each end, and one more that stands for the junction that the end may lead to.
   std::vector<std::size_t> ends_before{0};
   for (const Fragment& fragment : fragments) ends_before.push_back(ends_before.back() + fragment.ends.size());
@@ -293,11 +337,17 @@ std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, co
     const std::size_t to = link.to.end ? ends_before[link.to.fragment] + *link.to.end : ends + from;
     pairs.push_back({from, to, weight_of(link, settings)});
   }
+  const Candidates candidates{fragments, links, pairs, 2 * ends, kind, settings};
+  std::vector<std::size_t> all(links.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<std::size_t> order = heaviest_first(all, pairs);
+
+  Selection selection(candidates);
   // Three ends meet at a junction: a matching, which pairs them, finds chains only.
-  const std::size_t vertices = 2 * ends;
-  std::vector<std::size_t> chosen;
-  if (known.junctions == 0) chosen = possible_matching(fragments, links, pairs, vertices, known, settings);
-  add_heaviest(chosen, fragments, links, pairs, vertices, known, settings);
+  if (kind.junctions == 0) selection.take_possible(possible_matching(candidates));
+  selection.take_possible(order);
+  std::vector<std::size_t> chosen = exchanged(std::move(selection), order, candidates).taken();
+  std::ranges::sort(chosen);
   return chosen;
 }
 

@@ -36,9 +36,9 @@ struct LinkWeights {
 
 /// Learned by logistic regression: what `tanglebin learn` gives for recipes/learning.toml, to four decimals.
 inline constexpr LinkWeights learned_weights = {
-    .chain_ends = {-21.0617, -7.5466, 25.1531, -3.4052, -2.1253, 3.8048},
-    .tree_ends = {-2.8144, -2.0346, -18.9188, -4.4556, 0.0015, 2.9142},
-    .junction = {-5.3850, -2.5164, -11.2298, -5.9331, 1.4840, 0.0000},
+    .chain_ends = {-21.1166, -7.5650, 25.2700, -3.4258, -2.1145, 3.8178},
+    .tree_ends = {-3.1158, -2.1195, -17.9948, -4.4544, -0.0040, 2.9285},
+    .junction = {-5.3791, -2.5145, -11.2774, -5.9295, 1.4830, 0.0000},
 };
 
 struct LinkSettings {
@@ -49,7 +49,7 @@ struct LinkSettings {
   // Added to the log odds, since a fragment is more often a part of a tube than one by itself.
   double chain_prior = 9.0;
   double tree_prior = 6.0;
-  double junction_prior = 3.0;
+  double junction_prior = 4.0;
 };
 
 /// Where a link leads to.
@@ -74,13 +74,13 @@ struct Link {
 /// junctions: no gap wider, no turn sharper, no tube longer than the settings allow, and the space between
 /// was not seen to be empty. Where there may be junctions, of each end and other fragment the likeliest.
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
-                             const KnownScene& known, const LinkSettings& settings);
+                             const TubeKind& kind, const LinkSettings& settings);
 
 /// The links that together are the likeliest, with which every tube is open, no longer than known, and has no
 /// more junctions: for chains a matching of greatest weight between the ends, for trees the heaviest links
-/// one after the other. Indices, ascending.
+/// one after the other; then links are exchanged as long as the sum of the weights grows. Indices, ascending.
 std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
-                                      const KnownScene& known, const LinkSettings& settings);
+                                      const TubeKind& kind, const LinkSettings& settings);
 
 /// The fragments of each tube that the chosen links make: each ascending, the tubes by their first.
 std::vector<std::vector<std::size_t>> linked_fragments(std::size_t fragments, const std::vector<Link>& links,

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <set>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/model/axis_method.hpp"
@@ -39,10 +40,17 @@ void check_size(const PointCloud& cloud, const KnownScene& known, const std::str
 void validate(const KnownScene& known) {
   validate(known.bin);
   validate(known.camera);
-  check_positive(known.radius, "radius");
-  check_positive(known.length, "length");
-  if (known.junctions < 0)
-    throw InputError({"", 0, "junctions"}, fmt::format("{}", known.junctions), "0 or more");
+  if (known.kinds.empty()) throw InputError({"", 0, "kinds"}, "none", "at least one kind of tubes");
+  std::set<double> radii;
+  for (const TubeKind& kind : known.kinds) {
+    check_positive(kind.radius, "radius");
+    check_positive(kind.length, "length");
+    if (kind.junctions < 0)
+      throw InputError({"", 0, "junctions"}, fmt::format("{}", kind.junctions), "0 or more");
+    if (!radii.insert(kind.radius).second)
+      throw InputError({"", 0, "radius"}, fmt::format("{} m a second time", kind.radius),
+                       "kinds of tubes whose radii differ");
+  }
 }
 
 std::vector<Method> methods() {
@@ -77,6 +85,9 @@ Model model_tubes(const PointCloud& cloud, const KnownScene& known, Method metho
   check_size(cloud, known, name);
   switch (method) {
     case Method::paper:
+      if (known.kinds.size() > 1)
+        throw InputError({"", 0, "method"}, "paper, for tubes of several radii",
+                         "axis: the paper's knows one radius");
       return model_as_in_paper(cloud, known, ratio, seed).model;
     case Method::axis:
       return model_by_axes(cloud, known, ratio, seed).model;

@@ -12,17 +12,22 @@
 
 namespace tanglebin {
 
+/// What is known of each tube of a kind.
+struct TubeKind {
+  double radius = 0.0125;  ///< m
+  double length = 0.5;     ///< m, along its centre line, branches included
+  int junctions = 0;       ///< 0 for a chain, at most so many for a tree
+};
+
 /// What is known of a scene before its cloud is looked at.
 struct KnownScene {
   Bin bin;
-  Camera camera;           ///< that took the cloud
-  double radius = 0.0125;  ///< m, of every tube
-  double length = 0.5;     ///< m, of every tube, along its centre line, branches included
-  int junctions = 0;       ///< of every tube: 0 for a chain, at most so many for a tree
+  Camera camera;                                           ///< that took the cloud
+  std::vector<TubeKind> kinds = std::vector<TubeKind>(1);  ///< of tubes, told apart by their radii
 };
 
-/// Throws InputError naming the field of a scene that is none: what bin and camera refuse, a radius or length
-/// that is not a finite positive number.
+/// Throws InputError naming the field of a scene that is none: what bin and camera refuse, no kind, a radius
+/// or length that is not a finite positive number, a radius of two kinds.
 void validate(const KnownScene& known);
 
 /// What a step of a method left, and how long it took.
@@ -58,8 +63,8 @@ Method method_named(const std::string& name);
 /// Models the tubes of a cloud (m; a subset of what the known camera saw, in any order; labels and colours
 /// are not looked at) from a random share `ratio` (0 < ratio ≤ 1, drawn from `seed`) of its points. Every
 /// point gets a label, those left out of the modelling too. The result follows from the arguments alone.
-/// Throws InputError for a scene or ratio that is none and, with `name`, for a cloud that cannot be of this
-/// scene: one in millimetres, say.
+/// Throws InputError for a scene or ratio that is none, for several kinds of tubes where the method knows one
+/// only (paper) and, with `name`, for a cloud that cannot be of this scene: one in millimetres, say.
 Model model_tubes(const PointCloud& cloud, const KnownScene& known, Method method, double ratio,
                   std::uint64_t seed, const std::string& name);
 

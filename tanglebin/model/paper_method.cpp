@@ -38,6 +38,7 @@ std::vector<std::int32_t> claimed_points(std::size_t points, const PaperModel& f
 
 PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, double ratio,
                              std::uint64_t seed, const PaperSettings& settings) {
+  const TubeKind& kind = known.kinds.at(0);
   PaperModel result;
   Model& model = result.model;
   StepClock clock(model.steps);
@@ -53,13 +54,13 @@ PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, d
   clock.end_step("segment", result.clusters.size(), "clusters");
 
   // The fitting step.
-  result.cylinders = fit_clusters(result.filtered, result.clusters, known.radius, settings.fit);
+  result.cylinders = fit_clusters(result.filtered, result.clusters, kind.radius, settings.fit);
   clock.end_step("fit", result.cylinders.size(), "cylinders");
 
   // The joining step.
   const RangeImage seen(cloud, known.camera);
-  result.joins = join_cylinders(result.cylinders, seen, known.length, settings.join);
-  const std::vector<JoinedTube> tubes = joined_tubes(result.cylinders, result.joins, known.radius);
+  result.joins = join_cylinders(result.cylinders, seen, kind.length, settings.join);
+  const std::vector<JoinedTube> tubes = joined_tubes(result.cylinders, result.joins, kind.radius);
   for (const JoinedTube& joined : tubes) model.tubes.push_back(joined.tube);
   clock.end_step("join", model.tubes.size(), "tubes");
 

@@ -5,8 +5,8 @@
 
 namespace tanglebin {
 
-/// The radius, m, of the tubes in a cloud (arguments as for model_tubes(); known.radius is looked at
-/// nowhere). All tubes are taken to have one. Throws InputError with `name` for a cloud that shows too little
+/// The radius, m, of the tubes in a cloud (arguments as for model_tubes(); known.kinds are not looked
+/// at). All tubes are taken to have one. Throws InputError with `name` for a cloud that shows too little
 /// of a tube.
 double estimate_radius(const PointCloud& cloud, const KnownScene& known, const std::string& name);
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 namespace tanglebin {
+
 RangeImage::RangeImage(const PointCloud& cloud, const Camera& camera)
     : camera_(camera),
       depths_(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),

@@ -71,7 +71,8 @@ struct Neighbourhood {
 Neighbourhood neighbourhood(const PixelGrid& grid, std::size_t item, float reach) {
   const Vector3f point = grid.point(item);
   const auto [column, row] = grid.pixels()[item];
-  const int window = static_cast<int>(std::ceil(grid.pixels_across(reach, point)));
+  // Rounded up from half a pixel on, since points need not be in the middle of theirs.
+  const auto window = static_cast<int>(std::lround(grid.pixels_across(reach, point)));
   Sums sums;
   for (int v = row - window; v <= row + window; ++v) {
     sums.add(grid.run(v, column - window, column + window), point, reach * reach);

@@ -29,17 +29,20 @@ PointCloud clusters_of(const PaperModel& steps) {
   return cloud;
 }
 
-PointCloud fragments_of(const AxisModel& steps) {
-  std::vector<std::int32_t> fragment_of(steps.votes.votes.size(), null_label);
-  for (std::size_t i = 0; i < steps.fragments.size(); ++i) {
-    for (const std::size_t point : steps.fragments[i].points)
-      fragment_of[point] = static_cast<std::int32_t>(i) + 1;
-  }
+PointCloud fragments_of(const AxisModel& model) {
   PointCloud cloud;
-  for (std::size_t i = 0; i < steps.votes.votes.size(); ++i) {
-    if (!steps.votes.votes[i].allFinite()) continue;
-    cloud.points.push_back(steps.votes.votes[i]);
-    cloud.labels.push_back(fragment_of[i]);
+  std::int32_t fragments = 0;
+  for (const AxisSteps& steps : model.kinds) {
+    std::vector<std::int32_t> fragment_of(steps.votes.votes.size(), null_label);
+    for (const Fragment& fragment : steps.fragments) {
+      ++fragments;
+      for (const std::size_t point : fragment.points) fragment_of[point] = fragments;
+    }
+    for (std::size_t i = 0; i < steps.votes.votes.size(); ++i) {
+      if (!steps.votes.votes[i].allFinite()) continue;
+      cloud.points.push_back(steps.votes.votes[i]);
+      cloud.labels.push_back(fragment_of[i]);
+    }
   }
   cloud.width = cloud.points.size();
   return cloud;
@@ -78,7 +81,7 @@ std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const Paper
 std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const AxisModel& steps, const Bin& bin,
                                             const std::string& name) {
   std::vector<NamedPicture> pictures;
-  if (steps.fragments.empty()) return pictures;
+  if (steps.model.tubes.empty()) return pictures;
   const View view = nearly_from_above();
   pictures.push_back(
       {"1-filtered", picture_of_cloud(cloud_of(picked(cloud.points, steps.model.filtered)), view, name)});

@@ -5,7 +5,9 @@
 #include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
+#include "tanglebin/base/median.hpp"
 #include "tanglebin/score/centre_line.hpp"
 #include "tanglebin/score/joins.hpp"
 
@@ -100,24 +102,81 @@ std::vector<Capsule> near(const std::vector<Capsule>& capsules, const Capsule& a
   return near;
 }
 
-double coverage(const std::vector<CentreLine>& truth, const std::vector<Tube>& modelled) {
-  const std::vector<Capsule> model = all_capsules(modelled);
-  double total = 0;
-  double covered = 0;
-  for (const CentreLine& line : truth) {
-    for (const Capsule& axis : line.capsules()) {
-      const std::vector<Capsule> candidates = near(model, axis, line.radius());
-      for (const Sample& sample : samples(axis)) {
-        const bool is_covered = std::ranges::any_of(candidates, [&](const Capsule& candidate) {
-          return axis_distance(candidate, sample.point) <= line.radius();
-        });
-        total += sample.length;
-        if (is_covered) covered += sample.length;
-      }
+struct Coverage {
+  double covered;  // m
+  double length;   // m, of all
+};
+
+// How much of a centre line is within its radius of the modelled one.
+Coverage covered_part(const CentreLine& line, const std::vector<Capsule>& model) {
+  Coverage part{};
+  for (const Capsule& axis : line.capsules()) {
+    const std::vector<Capsule> candidates = near(model, axis, line.radius());
+    for (const Sample& sample : samples(axis)) {
+      const bool is_covered = std::ranges::any_of(candidates, [&](const Capsule& candidate) {
+        return axis_distance(candidate, sample.point) <= line.radius();
+      });
+      part.length += sample.length;
+      if (is_covered) part.covered += sample.length;
     }
   }
-  if (total == 0) throw std::invalid_argument("the true tubes have no centre line");
-  return covered / total;
+  return part;
+}
+
+double coverage(const std::vector<CentreLine>& truth, const std::vector<Tube>& modelled) {
+  const std::vector<Capsule> model = all_capsules(modelled);
+  Coverage all{};
+  for (const CentreLine& line : truth) {
+    const auto [covered, length] = covered_part(line, model);
+    all.covered += covered;
+    all.length += length;
+  }
+  if (all.length == 0) throw std::invalid_argument("the true tubes have no centre line");
+  return all.covered / all.length;
+}
+
+// Of each true tube that a modelled one covers nearly from end to end, by which share of its length that one
+// is too long or too short.
+std::vector<double> length_errors(const std::vector<CentreLine>& truth, const std::vector<Tube>& modelled) {
+  constexpr double nearly = 0.95;
+  std::vector<double> errors;
+  for (const CentreLine& line : truth) {
+    for (const Tube& tube : modelled) {
+      const auto [covered, length] = covered_part(line, capsules(tube));
+      if (covered <= nearly * length) continue;
+      errors.push_back(std::abs(total_length(tube) / length - 1));
+      break;
+    }
+  }
+  return errors;
+}
+
+struct Junction {
+  Eigen::Vector3d position;  // m
+  double radius;             // m, of its tube
+};
+
+std::vector<Junction> junctions(const std::vector<Tube>& tubes) {
+  std::vector<Junction> found;
+  for (const Tube& tube : tubes) {
+    std::vector<int> edges_at(tube.nodes.size());
+    for (const Edge& edge : tube.edges) {
+      ++edges_at[edge.from];
+      ++edges_at[edge.to];
+    }
+    for (std::size_t node = 0; node < tube.nodes.size(); ++node) {
+      if (edges_at[node] > 2) found.push_back({tube.nodes[node].position, tube.radius});
+    }
+  }
+  return found;
+}
+
+std::int64_t count_found(const std::vector<Junction>& truth, const std::vector<Junction>& modelled) {
+  return std::ranges::count_if(truth, [&](const Junction& junction) {
+    return std::ranges::any_of(modelled, [&](const Junction& other) {
+      return (junction.position - other.position).norm() <= 2 * junction.radius;
+    });
+  });
 }
 
 }  // namespace
@@ -127,12 +186,20 @@ TubesScore score_tubes(const std::vector<Tube>& truth, const std::vector<Tube>& 
   const double covered = coverage(lines, modelled);
   const std::vector<Error> modelled_errors = errors(lines, modelled);
   const Joins joins = count_joins(lines, modelled);
+  std::vector<double> lengths = length_errors(lines, modelled);
+  const std::vector<Junction> true_junctions = junctions(truth);
+  const std::vector<Junction> modelled_junctions = junctions(modelled);
   return {.centre_line_error = quantile(modelled_errors, 0.5),
           .centre_line_error_p95 = quantile(modelled_errors, 0.95),
           .centre_line_coverage = covered,
+          .complete_tubes = std::ssize(lengths),
+          .length_error = lengths.empty() ? std::nullopt : std::optional(median(std::move(lengths))),
           .true_joins = joins.in_truth,
           .joins_found = joins.found,
-          .joins_made = joins.made};
+          .joins_made = joins.made,
+          .true_junctions = std::ssize(true_junctions),
+          .junctions_found = count_found(true_junctions, modelled_junctions),
+          .junctions_made = std::ssize(modelled_junctions)};
 }
 
 }  // namespace tanglebin

@@ -14,6 +14,7 @@
 #include "tanglebin/cloud/ply.hpp"
 #include "tanglebin/cloud/read_cloud.hpp"
 #include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/score/score.hpp"
 
 namespace tanglebin {
 namespace {
@@ -132,7 +133,7 @@ TEST_F(ModelCommand, EstimatesTheRadius) {
   const ProgramResult run = model("scan.ply", "--radius auto --json");
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
-  EXPECT_NEAR(json.at("radius"), 0.0125, 0.02 * 0.0125);
+  EXPECT_NEAR(json.at("radii").at(0), 0.0125, 0.02 * 0.0125);
   EXPECT_EQ(json.at("tubes"), 2);
   EXPECT_THAT(model("scan.ply", "--radius auto").out, HasSubstr("radius    0.012"));
 
@@ -140,6 +141,22 @@ TEST_F(ModelCommand, EstimatesTheRadius) {
   const ProgramResult nothing = model("empty.ply", "--radius auto");
   EXPECT_EQ(nothing.status, 2);
   EXPECT_THAT(nothing.err, HasSubstr("radius: found too few points of a tube"));
+}
+
+TEST_F(ModelCommand, TakesTubesOfSeveralRadiiAndLengths) {
+  const std::vector<Tube> tubes = {test::chain(1, 0.008, {{-0.2, 0.1, 0.008}, {0.1, 0.1, 0.008}}),
+                                   test::chain(2, 0.0125, {{-0.2, -0.1, 0.0125}, {0.2, -0.1, 0.0125}})};
+  const PointCloud cloud = test::scanned(tubes);
+  write("mixed.ply", ply_of(cloud));
+  const ProgramResult run =
+      model("mixed.ply", "--radius 0.008,0.0125 --length 0.3,0.4 --json --tubes " + path("tubes.txt"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out).at("radii"), nlohmann::json::parse("[0.008, 0.0125]"));
+  const std::vector<Tube> found = read_configuration(directory_ / "tubes.txt");
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].radius, 0.008);
+  EXPECT_EQ(found[1].radius, 0.0125);
+  EXPECT_GT(score(cloud.labels, read_cloud(directory_ / "labelled.ply").labels).micro_recall, 0.999);
 }
 
 TEST_F(ModelCommand, RefusesWhatItCannotModel) {
@@ -151,6 +168,12 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
       {model("scan.ply", "--method magic"), "method: found \"magic\", expected paper, axis"},
       {model("scan.ply", "--downsample 0"), "downsample: found 0, expected"},
       {model("scan.ply", "--radius -1"), "--radius: found \"-1\", expected a positive number"},
+      {model("scan.ply", "--radius 0.01,"), "--radius: found \"\", expected a positive number"},
+      {model("scan.ply", "--radius 0.01,0.01"), "radius: found 0.01 m a second time"},
+      {model("scan.ply", "--radius 0.01,0.02,0.03 --length 0.4,0.5"),
+       "--length: found 2 lengths, expected one, or one for each radius: 3"},
+      {model("scan.ply", "--radius 0.01,0.02 --method paper"),
+       "method: found paper, for tubes of several radii"},
       {model("scan.ply", "--bin bucket"), "bucket"},
       {model("nowhere.ply", ""), "nowhere.ply"},
   };

@@ -75,6 +75,20 @@ TEST(Randomization, ASetsNumbersDoNotDependOnTheSetsBefore) {
   }
 }
 
+TEST(Randomization, EachKindOfTubesHasNumbersOfItsOwn) {
+  const std::string kind =
+      "[[set.tube]]\nradius = { min = 0.008, max = 0.0125 }\nmass = 0.5\nlength = 0.5\nbend_max_deg = 30\n";
+  const Recipe recipe = read("[[set]]\nname = \"M\"\ntubes = [2]\n" + kind + kind);
+  const CaseId id{"M", 2, 1};
+  const auto numbers = drawn(recipe, id);
+  const Recipe resolved = resolve(recipe, draw(recipe, id));
+  ASSERT_EQ(resolved.sets[0].kinds.size(), 2U);
+  EXPECT_EQ(resolved.sets[0].kinds[0].radius, numbers.at("set[0].tube[0].radius"));
+  EXPECT_EQ(resolved.sets[0].kinds[1].radius, numbers.at("set[0].tube[1].radius"));
+  EXPECT_NE(resolved.sets[0].kinds[0].radius, resolved.sets[0].kinds[1].radius);
+  EXPECT_EQ(write(read(write(recipe))), write(recipe));
+}
+
 TEST(Randomization, AScannersNumbersGoWithItsName) {
   const std::string left = "[[scanner]]\nname = \"left\"\nsigma = { min = 0, max = 0.001 }\n";
   const std::string right = "[[scanner]]\nname = \"right\"\nsigma = { min = 0, max = 0.001 }\n";
@@ -120,8 +134,8 @@ TEST(Randomization, ACasesRecipeHasTheDrawnNumbersAndNothingRandom) {
     EXPECT_EQ(resolved.sensor.baseline, by_path.at("scanner.baseline"));
     EXPECT_EQ(resolved.camera.pose.translation().x(), by_path.at("scanner.position[0]"));
     EXPECT_EQ(resolved.camera.pose.translation().z(), by_path.at("scanner.position[2]"));
-    EXPECT_EQ(resolved.sets[0].spec.radius, by_path.at("set[0].tube.radius"));
-    EXPECT_EQ(resolved.sets[0].spec.segments[0].cylinders_max, by_path.at("set[0].tube.cylinders_max"));
+    EXPECT_EQ(resolved.sets[0].kinds[0].radius, by_path.at("set[0].tube.radius"));
+    EXPECT_EQ(resolved.sets[0].kinds[0].segments[0].cylinders_max, by_path.at("set[0].tube.cylinders_max"));
     EXPECT_NEAR(std::atan(960 / resolved.camera.fx) * 360 / 3.14159265358979, by_path.at("scanner.hfov_deg"),
                 1e-9);
     EXPECT_NEAR((*project(resolved.camera, {0, 0, 0.1}) - Eigen::Vector2d(959.5, 599.5)).norm(), 0, 1e-9)

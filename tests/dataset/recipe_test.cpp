@@ -118,7 +118,7 @@ TEST(Recipe, ASetIsEnough) {
   EXPECT_EQ(recipe.sets[0].name, "A");
   EXPECT_THAT(recipe.sets[0].tubes, ElementsAre(1, 10));
   EXPECT_EQ(recipe.sets[0].cases, 20);
-  const TubeSpec& spec = recipe.sets[0].spec;
+  const TubeSpec& spec = recipe.sets[0].kinds[0];
   EXPECT_EQ(spec.radius, 0.0125);
   EXPECT_EQ(spec.mass, 0.5);
   ASSERT_EQ(spec.segments.size(), 1U);
@@ -154,13 +154,43 @@ TEST(Recipe, TakesCommentsInAnyLanguage) {
 TEST(Recipe, ReadsTreesOfSegments) {
   const Recipe recipe = read(tree);
 
-  const std::vector<Segment>& segments = recipe.sets.at(0).spec.segments;
+  const std::vector<Segment>& segments = recipe.sets.at(0).kinds.at(0).segments;
   ASSERT_EQ(segments.size(), 2U);
   EXPECT_EQ(segments[1].from, 1);
   EXPECT_EQ(segments[1].to, 3);
   EXPECT_EQ(segments[1].length, 0.1);
   EXPECT_EQ(segments[1].cylinders_max, 5);
   EXPECT_EQ(segments[1].bend_max, 20 * degree);
+}
+
+const std::string two_kinds =
+    "[[set]]\nname = \"M\"\ntubes = [4]\n"
+    "[[set.tube]]\nradius = 0.008\nmass = 0.2\nlength = 0.4\nbend_max_deg = 30\n"
+    "[[set.tube]]\nradius = 0.0125\nmass = 0.5\n"
+    "[[set.tube.segment]]\nfrom = 1\nto = 2\nlength = 0.3\nbend_max_deg = 30\n"
+    "[[set.tube.segment]]\nfrom = 2\nto = 3\nlength = 0.2\nbend_max_deg = 30\n";
+
+TEST(Recipe, ReadsSeveralKindsOfTubesForOneBin) {
+  const Recipe recipe = read(two_kinds);
+  const std::vector<TubeSpec>& kinds = recipe.sets.at(0).kinds;
+  ASSERT_EQ(kinds.size(), 2U);
+  EXPECT_EQ(kinds[0].radius, 0.008);
+  EXPECT_EQ(kinds[0].segments.size(), 1U);
+  EXPECT_EQ(kinds[1].radius, 0.0125);
+  EXPECT_EQ(kinds[1].segments.size(), 2U);
+  EXPECT_EQ(write(read(write(recipe))), write(recipe));
+}
+
+TEST(Recipe, SaysWhichKindOfTubesIsNone) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = two_kinds;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  EXPECT_EQ(complaint(with("radius = 0.0125", "radius = -1")),
+            "r.toml:10: set[0].tube[1].radius: found -1, expected a positive number");
+  EXPECT_EQ(complaint(with("length = 0.4", "length = 4.0")).find("r.toml:7: set[0].tube[0].length"), 0U);
+  EXPECT_EQ(complaint("[[set]]\nname = \"M\"\ntubes = [4]\ntube = []\n"),
+            "r.toml:4: set[0].tube: found none, expected at least one [[set.tube]]");
 }
 
 TEST(Recipe, OverridesAPreset) {
@@ -330,7 +360,7 @@ TEST(Recipe, WritesThePropertiesOfPointsWhereAnyIsAskedFor) {
 TEST(Recipe, WritesDegreesAsAPersonWould) {
   for (int degrees = 0; degrees <= 180; ++degrees) {
     Recipe recipe = read(smallest);
-    recipe.sets[0].spec.segments[0].bend_max = degrees * degree;
+    recipe.sets[0].kinds[0].segments[0].bend_max = degrees * degree;
     EXPECT_THAT(write(recipe), HasSubstr("bend_max_deg = " + std::to_string(degrees) + ".0\n"));
   }
 }
@@ -383,7 +413,9 @@ void expect_same(const Recipe& recipe, const Recipe& other) {
     EXPECT_EQ(recipe.sets[i].name, other.sets[i].name);
     EXPECT_EQ(recipe.sets[i].tubes, other.sets[i].tubes);
     EXPECT_EQ(recipe.sets[i].cases, other.sets[i].cases);
-    expect_same(recipe.sets[i].spec, other.sets[i].spec);
+    ASSERT_EQ(recipe.sets[i].kinds.size(), other.sets[i].kinds.size());
+    for (std::size_t kind = 0; kind < recipe.sets[i].kinds.size(); ++kind)
+      expect_same(recipe.sets[i].kinds[kind], other.sets[i].kinds[kind]);
   }
 }
 
@@ -415,14 +447,11 @@ double any_angle(double low_degrees, double high_degrees) {
          degree;
 }
 
-SetRecipe any_set(const std::string& name) {
-  SetRecipe set;
-  set.name = name;
-  set.tubes = *rc::gen::nonEmpty(rc::gen::unique<std::vector<int>>(rc::gen::inRange(1, 1000)));
-  set.cases = *rc::gen::inRange(1, 1000);
-  set.spec.radius = any_real(0.001, 0.1);
-  set.spec.mass = any_real(0.001, 10);
-  set.spec.segments.clear();
+TubeSpec any_kind() {
+  TubeSpec spec;
+  spec.radius = any_real(0.001, 0.1);
+  spec.mass = any_real(0.001, 10);
+  spec.segments.clear();
   const int segments = *rc::gen::inRange(1, 5);
   for (int to = 2; to <= segments + 1; ++to) {
     Segment segment;
@@ -434,8 +463,19 @@ SetRecipe any_set(const std::string& name) {
     segment.cylinder_length_min = segment.length / 20 * any_real(0.01, 1);
     segment.bend_min = any_angle(0, 30);
     segment.bend_max = any_angle(30, 180);
-    set.spec.segments.push_back(segment);
+    spec.segments.push_back(segment);
   }
+  return spec;
+}
+
+SetRecipe any_set(const std::string& name) {
+  SetRecipe set;
+  set.name = name;
+  set.tubes = *rc::gen::nonEmpty(rc::gen::unique<std::vector<int>>(rc::gen::inRange(1, 1000)));
+  set.cases = *rc::gen::inRange(1, 1000);
+  const int kinds = *rc::gen::inRange(1, 4);
+  set.kinds.clear();
+  for (int i = 0; i < kinds; ++i) set.kinds.push_back(any_kind());
   return set;
 }
 
@@ -463,8 +503,8 @@ RC_GTEST_PROP(RecipeProperty, WhatIsWrittenReadsBackBitForBit, ()) {
 RC_GTEST_PROP(RecipeProperty, DegreesComeBackAsTheSameRadians, ()) {
   Recipe recipe = read(smallest);
   const double radians = any_real(0, 180) * degree;
-  recipe.sets[0].spec.segments[0].bend_max = radians;
-  RC_ASSERT(read(write(recipe)).sets[0].spec.segments[0].bend_max == radians);
+  recipe.sets[0].kinds[0].segments[0].bend_max = radians;
+  RC_ASSERT(read(write(recipe)).sets[0].kinds[0].segments[0].bend_max == radians);
 }
 
 TEST(Recipe, AnAngleThatNoDegreesGiveIsWrittenAsTheNearest) {
@@ -472,8 +512,8 @@ TEST(Recipe, AnAngleThatNoDegreesGiveIsWrittenAsTheNearest) {
   double radians = 1.2;
   for (int i = 0; i < 100; ++i) {
     radians = std::nextafter(radians, 2.0);
-    recipe.sets[0].spec.segments[0].bend_max = radians;
-    EXPECT_DOUBLE_EQ(read(write(recipe)).sets[0].spec.segments[0].bend_max, radians);
+    recipe.sets[0].kinds[0].segments[0].bend_max = radians;
+    EXPECT_DOUBLE_EQ(read(write(recipe)).sets[0].kinds[0].segments[0].bend_max, radians);
   }
 }
 
@@ -492,13 +532,15 @@ TEST(Recipe, OnesInTheRepositoryAreWhatTheySay) {
   EXPECT_EQ(cases(read_recipe(file("set-a.toml"))).size(), 320U);
   EXPECT_EQ(cases(read_recipe(file("set-b.toml"))).size(), 320U);
   EXPECT_EQ(cases(read_recipe(file("set-c.toml"))).size(), 100U);
+  EXPECT_EQ(cases(read_recipe(file("mixed.toml"))).size(), 60U);
+  EXPECT_EQ(cases(read_recipe(file("crowded.toml"))).size(), 50U);
   const Recipe paper = read_recipe(file("paper.toml"));
   EXPECT_EQ(cases(paper).size(), 640U);
-  EXPECT_EQ(paper.sets.at(0).spec.segments.at(0).bend_max, 30 * degree);
-  EXPECT_EQ(paper.sets.at(1).spec.segments.at(0).bend_max, 45 * degree);
+  EXPECT_EQ(paper.sets.at(0).kinds.at(0).segments.at(0).bend_max, 30 * degree);
+  EXPECT_EQ(paper.sets.at(1).kinds.at(0).segments.at(0).bend_max, 45 * degree);
   // The same seed gives the same scenes in the recipe of one set and in that of both.
-  expect_same(paper.sets[0].spec, read_recipe(file("set-a.toml")).sets.at(0).spec);
-  expect_same(paper.sets[1].spec, read_recipe(file("set-b.toml")).sets.at(0).spec);
+  expect_same(paper.sets[0].kinds[0], read_recipe(file("set-a.toml")).sets.at(0).kinds.at(0));
+  expect_same(paper.sets[1].kinds[0], read_recipe(file("set-b.toml")).sets.at(0).kinds.at(0));
   EXPECT_EQ(paper.seed, read_recipe(file("set-a.toml")).seed);
 }
 

@@ -38,6 +38,18 @@ TEST(Simulate, GivesTheTubesAskedForAndAScanThatSeesThem) {
   EXPECT_THAT(labels_of(scene.scan), testing::IsSupersetOf({0, 1, 2, 3}));
 }
 
+TEST(Simulate, TakesKindsOfTubesInTurn) {
+  Recipe recipe = small_recipe();
+  TubeSpec thin = recipe.sets[0].kinds[0];
+  thin.radius = 0.008;
+  thin.mass = 0.2;
+  recipe.sets[0].kinds.push_back(thin);
+  const Scene scene = simulate(recipe, {"A", 3, 1});
+  ASSERT_EQ(scene.tubes.size(), 3U);
+  for (const Tube& tube : scene.tubes) EXPECT_EQ(tube.radius, tube.id == 2 ? 0.008 : 0.0125) << tube.id;
+  EXPECT_THAT(labels_of(scene.scan), testing::IsSupersetOf({0, 1, 2, 3}));
+}
+
 TEST(Simulate, ACaseIsTheSameWhateverWasSimulatedBefore) {
   const Recipe recipe = small_recipe();
   const std::string first = text_of(simulate(recipe, {"A", 3, 1}).tubes);

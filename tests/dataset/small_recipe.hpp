@@ -19,7 +19,7 @@ inline Recipe small_recipe() {
   set.name = "A";
   set.tubes = {1, 3};
   set.cases = 3;
-  set.spec.segments[0].bend_max = 0.5;
+  set.kinds[0].segments[0].bend_max = 0.5;
   recipe.sets.push_back(set);
   return recipe;
 }

@@ -44,6 +44,29 @@ std::vector<Tube> tubes(int count) {
   return result;
 }
 
+TEST(KnownScene, HasEachKindOfTubesOfItsSet) {
+  Recipe recipe = test::small_recipe();
+  std::vector<TubeSpec>& kinds = recipe.sets[0].kinds;
+  kinds.resize(3);
+  kinds[1].radius = 0.008;
+  kinds[1].segments.resize(3);
+  for (int i = 0; i < 3; ++i) {
+    Segment& arm = kinds[1].segments[static_cast<std::size_t>(i)];
+    arm.to = i + 2;
+    arm.length = 0.1;
+  }
+  kinds[2].radius = kinds[0].radius;
+  kinds[2].segments[0].length = 0.6;
+  const KnownScene known = known_scene(recipe, {"A", 3, 1});
+  ASSERT_EQ(known.kinds.size(), 2U);
+  EXPECT_EQ(known.kinds[0].radius, 0.0125);
+  EXPECT_EQ(known.kinds[0].length, 0.6) << "the longest of those with this radius";
+  EXPECT_EQ(known.kinds[0].junctions, 0);
+  EXPECT_EQ(known.kinds[1].radius, 0.008);
+  EXPECT_NEAR(known.kinds[1].length, 0.3, 1e-12);
+  EXPECT_EQ(known.kinds[1].junctions, 1);
+}
+
 TEST(ScoreModel, LooksAtThePointsThatTheFilterLeftAlone) {
   const CaseData data{"1.ply", cloud_of({0, 1, 1, 1, 2, 2}), tubes(2)};
   const Model model{.tubes = tubes(2), .labels = {1, 2, 2, -1, 1, -1}, .filtered = {0, 1, 2, 4}, .steps = {}};

@@ -25,8 +25,8 @@ using testing::IsEmpty;
 
 AxisModel modelled(const PointCloud& cloud, int junctions = 0, double length = 0.5) {
   KnownScene known = paper_scene();
-  known.junctions = junctions;
-  known.length = length;
+  known.kinds[0].junctions = junctions;
+  known.kinds[0].length = length;
   return model_by_axes(cloud, known, 1, 1);
 }
 
@@ -73,7 +73,7 @@ TEST(AxisMethod, JoinsWhatAnotherTubeHides) {
   const PointCloud cloud =
       scanned({test::straight_tube(1, 0), test::chain(2, 0.0125, {{0.05, -0.15, 0.04}, {0.02, 0.15, 0.04}})});
   const AxisModel found = modelled(cloud);
-  EXPECT_EQ(found.fragments.size(), 3U);
+  EXPECT_EQ(found.kinds[0].fragments.size(), 3U);
   EXPECT_EQ(found.model.tubes.size(), 2U);
   EXPECT_EQ(micro_recall(cloud, found), 1);
 }
@@ -82,6 +82,32 @@ TEST(AxisMethod, DoesNotJoinWhatIsSeenToBeApart) {
   const PointCloud cloud = scanned({test::chain(1, 0.0125, {{-0.25, 0, 0.0125}, {-0.05, 0, 0.0125}}),
                                     test::chain(2, 0.0125, {{0.02, 0, 0.0125}, {0.2, 0, 0.0125}})});
   EXPECT_EQ(modelled(cloud).model.tubes.size(), 2U);
+}
+
+// The sensor is above the middle of the bin.
+TEST(AxisMethod, SaysNothingOfATubeThatIsHidden) {
+  const PointCloud cloud = scanned({test::chain(1, 0.0125, {{-0.25, 0, 0.038}, {0.25, 0, 0.038}}),
+                                    test::chain(2, 0.0125, {{-0.2, 0, 0.0125}, {0.2, 0, 0.0125}})});
+  ASSERT_EQ(std::ranges::count(cloud.labels, 2), 0);
+  const AxisModel found = modelled(cloud);
+  EXPECT_EQ(found.model.tubes.size(), 1U);
+  EXPECT_EQ(micro_recall(cloud, found), 1);
+}
+
+// In each pair one tube hides a part of the other.
+TEST(AxisMethod, FindsTubesOfSeveralRadii) {
+  const std::vector<Tube> tubes = {test::chain(1, 0.008, {{-0.2, 0.1, 0.008}, {0.2, 0.1, 0.008}}),
+                                   test::chain(2, 0.0125, {{0.0, -0.05, 0.03}, {0.02, 0.16, 0.03}}),
+                                   test::chain(3, 0.0125, {{-0.2, -0.1, 0.0125}, {0.2, -0.1, 0.0125}}),
+                                   test::chain(4, 0.008, {{-0.1, -0.16, 0.034}, {-0.1, 0.05, 0.034}})};
+  const PointCloud cloud = scanned(tubes);
+  KnownScene known = paper_scene();
+  known.kinds = {{.radius = 0.008, .length = 0.4}, {.radius = 0.0125, .length = 0.4}};
+  const AxisModel found = model_by_axes(cloud, known, 1, 1);
+  ASSERT_EQ(found.model.tubes.size(), 4U);
+  EXPECT_GT(micro_recall(cloud, found), 0.999);
+  EXPECT_LT(*score_tubes(tubes, found.model.tubes).centre_line_error, 0.0002);
+  EXPECT_EQ(std::ranges::count(found.model.tubes, 0.008, &Tube::radius), 2);
 }
 
 TEST(AxisMethod, FollowsATubeThatCrossesItselfInTheImage) {

@@ -37,11 +37,18 @@ std::ptrdiff_t count_votes(const AxisVotes& votes) {
   return std::ranges::count_if(votes.votes, [](const auto& vote) { return vote.allFinite(); });
 }
 
+constexpr double radius = 0.0125;
+
+AxisVotes votes_of(const std::vector<Eigen::Vector3f>& points) {
+  const KnownScene scene = paper_scene();
+  return vote_for_axes(points, scene.bin, scene.camera, radius, {});
+}
+
 TEST(AxisVotes, OfAScannedTubeAreOnItsAxis) {
   const std::vector<Tube> tubes = {
       test::chain(1, 0.0125, {{-0.2, -0.05, 0.0125}, {0, 0, 0.05}, {0.2, -0.03, 0.1}})};
   const std::vector<Eigen::Vector3f> points = points_of(scanned(tubes), 1);
-  const AxisVotes votes = vote_for_axes(points, paper_scene(), {});
+  const AxisVotes votes = votes_of(points);
   ASSERT_EQ(votes.votes.size(), points.size());
   EXPECT_GT(count_votes(votes), 0.98 * static_cast<double>(points.size()));
   std::vector<double> errors;
@@ -61,7 +68,7 @@ TEST(AxisVotes, OfTubesThatTouchStayADiameterApart) {
   const PointCloud cloud = scanned(tubes);
   std::vector<Eigen::Vector3f> points = points_of(cloud, 1);
   std::ranges::copy(points_of(cloud, 2), std::back_inserter(points));
-  const AxisVotes votes = vote_for_axes(points, paper_scene(), {});
+  const AxisVotes votes = votes_of(points);
   EXPECT_GT(count_votes(votes), 0.85 * static_cast<double>(points.size()));
   for (const Eigen::Vector3f& vote : votes.votes) {
     if (!vote.allFinite()) continue;
@@ -75,13 +82,13 @@ TEST(AxisVotes, DoNotLieInTheBin) {
   for (int i = 0; i < 10000; ++i) {
     floor.emplace_back(0.001F * static_cast<float>(i % 100), 0.001F * static_cast<float>(i / 100), 0.007F);
   }
-  EXPECT_EQ(count_votes(vote_for_axes(floor, paper_scene(), {})), 0);
+  EXPECT_EQ(count_votes(votes_of(floor)), 0);
 }
 
 TEST(AxisVotes, NeedNeighbours) {
   const std::vector<Eigen::Vector3f> few = {{0, 0, 0.1F}, {0.001F, 0, 0.1F}, {0, 0.001F, 0.1F}};
-  EXPECT_EQ(count_votes(vote_for_axes(few, paper_scene(), {})), 0);
-  EXPECT_EQ(count_votes(vote_for_axes({}, paper_scene(), {})), 0);
+  EXPECT_EQ(count_votes(votes_of(few)), 0);
+  EXPECT_EQ(count_votes(votes_of({})), 0);
 }
 
 }  // namespace

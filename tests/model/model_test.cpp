@@ -155,13 +155,26 @@ TEST_P(ModelTubes, SaysThatACloudIsInMillimetres) {
 
 TEST_P(ModelTubes, RefusesASceneThatIsNone) {
   KnownScene scene = paper_scene();
-  scene.radius = 0;
+  scene.kinds[0].radius = 0;
   EXPECT_THAT(complaint({}, scene, 1), HasSubstr("radius: found 0, expected a positive number"));
   scene = paper_scene();
-  scene.length = std::numeric_limits<double>::quiet_NaN();
+  scene.kinds[0].length = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(complaint({}, scene, 1), HasSubstr("length: found nan"));
+  scene = paper_scene();
+  scene.kinds.push_back(scene.kinds[0]);
+  EXPECT_THAT(complaint({}, scene, 1),
+              HasSubstr("radius: found 0.0125 m a second time, expected kinds of tubes whose radii differ"));
+  scene.kinds.clear();
+  EXPECT_THAT(complaint({}, scene, 1), HasSubstr("kinds: found none"));
   EXPECT_THAT(complaint({}, paper_scene(), 0), HasSubstr("downsample: found 0, expected a ratio above 0"));
   EXPECT_THAT(complaint({}, paper_scene(), 1.5), HasSubstr("downsample: found 1.5"));
+}
+
+TEST(PaperMethod, KnowsOneRadiusOnly) {
+  KnownScene scene = paper_scene();
+  scene.kinds.push_back({.radius = 0.008});
+  EXPECT_EQ(test::complaint([&] { model_tubes({}, scene, Method::paper, 1, 1, "cloud.ply"); }),
+            "method: found paper, for tubes of several radii, expected axis: the paper's knows one radius");
 }
 
 TEST(Methods, HaveNamesBothWays) {

@@ -99,6 +99,31 @@ TEST(CentreLineCoverage, IsTheShareOfTheTrueLengthThatIsModelled) {
               rounding);
 }
 
+TEST(CompleteTubes, AreCoveredByOneModelledTubeAndHaveALength) {
+  const Tube other = along_x({0, 0.5}, 1);
+  const TubesScore score = score_tubes({straight, other}, {along_x({0, 0.49}), along_x({0, 0.4}, 1)});
+  EXPECT_EQ(score.complete_tubes, 1);
+  EXPECT_NEAR(*score.length_error, 0.02, rounding);
+  const TubesScore halves = score_tubes({straight}, {along_x({0, 0.25}), along_x({0.25, 0.5})});
+  EXPECT_EQ(halves.complete_tubes, 0);
+  EXPECT_FALSE(halves.length_error);
+}
+
+TEST(Junctions, AreFoundWithinADiameter) {
+  Tube tree = straight;
+  add_branch(tree, 0, {{0, 0.1, 0}});
+  EXPECT_EQ(score_tubes({tree}, {tree}).true_junctions, 0) << "two pieces that meet are a bend";
+  add_branch(tree, 0, {{0, -0.1, 0}});
+  for (const auto& [off, found] : {std::pair{0.024, 1}, {0.026, 0}}) {
+    Tube moved = tree;
+    transform(moved, Eigen::Isometry3d(Eigen::Translation3d(0, 0, off)));
+    const TubesScore score = score_tubes({tree}, {moved, straight});
+    EXPECT_EQ(score.true_junctions, 1);
+    EXPECT_EQ(score.junctions_found, found) << off;
+    EXPECT_EQ(score.junctions_made, 1);
+  }
+}
+
 TEST(CentreLineCoverage, EndsARadiusAway) {
   EXPECT_EQ(score_tubes({straight}, {along_x({0, 0.5}, 0.0124)}).centre_line_coverage, 1.0);
   EXPECT_EQ(score_tubes({straight}, {along_x({0, 0.5}, 0.0126)}).centre_line_coverage, 0.0);
@@ -281,6 +306,11 @@ void assert_same(const TubesScore& a, const TubesScore& b) {
   RC_ASSERT(a.true_joins == b.true_joins);
   RC_ASSERT(a.joins_found == b.joins_found);
   RC_ASSERT(a.joins_made == b.joins_made);
+  RC_ASSERT(a.complete_tubes == b.complete_tubes);
+  RC_ASSERT(std::abs(a.length_error.value_or(0) - b.length_error.value_or(0)) < 1e-9);
+  RC_ASSERT(a.true_junctions == b.true_junctions);
+  RC_ASSERT(a.junctions_found == b.junctions_found);
+  RC_ASSERT(a.junctions_made == b.junctions_made);
 }
 
 std::int64_t joins_at_nodes(const std::vector<Tube>& tubes) {
@@ -303,6 +333,11 @@ RC_GTEST_PROP(ScoreTubes, TheTruthIsAPerfectModel, ()) {
   RC_ASSERT(score.true_joins == joins_at_nodes(truth));
   RC_ASSERT(score.joins_found == score.true_joins);
   RC_ASSERT(score.joins_made == score.true_joins);
+  RC_ASSERT(score.complete_tubes == std::ssize(truth));
+  RC_ASSERT(*score.length_error < rounding);
+  RC_ASSERT(score.true_junctions > 0);
+  RC_ASSERT(score.junctions_found == score.true_junctions);
+  RC_ASSERT(score.junctions_made == score.true_junctions);
 }
 
 RC_GTEST_PROP(ScoreTubes, NoMoreJoinsAreFoundThanThereAreOrAreMade, ()) {
