@@ -1,7 +1,6 @@
 #include "tanglebin/dataset/catalogue.hpp"
 
 #include <fstream>
-#include <string_view>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
@@ -12,23 +11,8 @@
 #include "tanglebin/dataset/safe_file.hpp"
 
 namespace tanglebin {
-namespace {
 
 namespace fs = std::filesystem;
-
-// Every line begins with these three members, and a set's name has neither comma nor quote. Only so much is
-// read: a manifest may have a hundred thousand lines.
-CaseId id_of_line(std::string_view line, const std::string& file, std::size_t number) {
-  std::size_t end = std::string_view::npos;
-  std::size_t from = 0;
-  for (int members = 0; members < 3; ++members) {
-    end = line.find_first_of(",}", from);
-    from = end == std::string_view::npos ? end : end + 1;
-  }
-  return JsonRecord(std::string(line.substr(0, end)) + '}', file, number).id();
-}
-
-}  // namespace
 
 std::string to_json(const FailedCase& failed) {
   Json json = id_json(failed.id);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tanglebin/dataset/case_id.hpp"
@@ -15,8 +16,12 @@ namespace tanglebin {
 
 using Json = nlohmann::ordered_json;
 
-/// The members by which every line says which case it is about.
+/// The members by which every line says which case it is about. They come first.
 Json id_json(const CaseId& id);
+
+/// The case that a line of JSON begins with. The rest of the line is not read: a manifest may have a hundred
+/// thousand of them. Throws InputError.
+CaseId id_of_line(std::string_view line, const std::string& file, std::size_t number);
 
 /// Seeds are hexadecimal text, since many readers of JSON take a number for a double, which cannot hold all
 /// of a seed.

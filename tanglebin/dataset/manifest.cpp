@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/excerpt.hpp"
 #include "tanglebin/dataset/json_record.hpp"
 
@@ -21,6 +22,13 @@ std::string path_from(const JsonRecord& entry) {
     entry.fail("path", excerpt(text), "a path below the dataset's directory");
   }
   return text;
+}
+
+// Members in another order, or one of them twice: then the line's beginning does not say what the line says.
+void expect_id_first(const CaseId& id, const std::string& json, const std::string& file, std::size_t line) {
+  if (id_of_line(json, file, line) != id) {
+    throw InputError({file, line, ""}, excerpt(json), "a line that begins with its set, tubes and case");
+  }
 }
 
 }  // namespace
@@ -83,14 +91,18 @@ CaseRecord case_record(const std::string& json, const std::string& file, std::si
     const JsonRecord drawn = value.object("drawn");
     for (const std::string& path : drawn.fields()) record.drawn.push_back({path, drawn.number(path)});
   }
+  expect_id_first(record.id, json, file, line);
   return record;
 }
 
 TimesRecord times_record(const std::string& json, const std::string& file, std::size_t line) {
   const JsonRecord value(json, file, line);
-  return {value.id(),
-          {value.number("generate"), value.number("settle"), value.number("scan"), value.number("write")},
-          value.number("peak_memory")};
+  TimesRecord record{
+      value.id(),
+      {value.number("generate"), value.number("settle"), value.number("scan"), value.number("write")},
+      value.number("peak_memory")};
+  expect_id_first(record.id, json, file, line);
+  return record;
 }
 
 }  // namespace tanglebin

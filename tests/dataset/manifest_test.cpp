@@ -72,6 +72,27 @@ TEST(Manifest, ANumberThatIsNoWholeOneInRangeIsAnError) {
               testing::HasSubstr("tubes: found 3000000000, expected 1 to 2147483647"));
 }
 
+// Found by fuzz/manifest_fuzz: such a line was taken for a case, and its manifest could then not be read,
+// since of most lines no more is read than the case that they begin with.
+TEST(Manifest, ALineThatDoesNotBeginWithItsCaseIsAnError) {
+  const std::string begins = R"({"set":"A","tubes":10,"case":3,)";
+  const std::string record = to_json(example_record());
+  const std::string times = to_json(TimesRecord{{"A", 10, 3}, {0.001, 0.25, 0.0125, 0.003}, 64.5});
+  ASSERT_THAT(record, testing::StartsWith(begins));
+  ASSERT_THAT(times, testing::StartsWith(begins));
+  for (const std::string beginning :
+       {R"({"note":"","set":"A","tubes":10,"case":3,)", R"({"set":"A","tubes":10,"case":4,"case":3,)"}) {
+    EXPECT_THAT(
+        test::complaint([&] { case_record(beginning + record.substr(begins.size()), "manifest.jsonl", 12); }),
+        testing::StartsWith("manifest.jsonl:12: "))
+        << beginning;
+    EXPECT_THAT(
+        test::complaint([&] { times_record(beginning + times.substr(begins.size()), "times.jsonl", 12); }),
+        testing::StartsWith("times.jsonl:12: "))
+        << beginning;
+  }
+}
+
 TEST(Manifest, ADamagedLineIsAnErrorThatSaysWhere) {
   const auto complaint_of = [](const std::string& line) {
     return test::complaint([&] { case_record(line, "manifest.jsonl", 12); });
