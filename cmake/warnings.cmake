@@ -6,8 +6,4 @@ function(tanglebin_strict_warnings target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
-  # GCC's manual, -fsanitize: sanitizers make this warning misfire (here in the standard library's <regex>).
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND TANGLEBIN_SANITIZE)
-    target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
-  endif()
 endfunction()

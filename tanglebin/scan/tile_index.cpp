@@ -43,6 +43,12 @@ std::array<AlignedBox3d, 5> thickened(std::array<AlignedBox3d, 5> boxes, const B
   return boxes;
 }
 
+/// Are both points outside of the same face, and with them all between them?
+bool lie_outside_of_a_face(const AlignedBox3d& box, const Vector3d& a, const Vector3d& b) {
+  return (a.cwiseMin(b).array() > box.max().array()).any() ||
+         (a.cwiseMax(b).array() < box.min().array()).any();
+}
+
 }  // namespace
 
 Surfaces surfaces_of(const std::vector<Tube>& tubes, const Bin& bin) {
@@ -95,10 +101,14 @@ std::optional<LabelledHit> first_hit(const Surfaces& surfaces, const Candidates&
 
 bool is_blocked(const Surfaces& surfaces, const Candidates& candidates, const Ray& ray, double distance) {
   const auto blocks = [&](const std::optional<SurfaceHit>& hit) { return hit && hit->distance < distance; };
+  // Most ways end on the floor, and its plane tells that it is not between.
+  const Vector3d end = ray.origin + distance * ray.direction;
+  const auto is_outside = [&](const AlignedBox3d& box) { return lie_outside_of_a_face(box, ray.origin, end); };
   return std::ranges::any_of(candidates.capsules,
                              [&](std::size_t i) { return blocks(ray_capsule(ray, surfaces.capsules[i])); }) ||
-         std::ranges::any_of(candidates.boxes,
-                             [&](std::size_t i) { return blocks(ray_box(ray, surfaces.boxes[i])); });
+         std::ranges::any_of(candidates.boxes, [&](std::size_t i) {
+           return !is_outside(surfaces.boxes[i]) && blocks(ray_box(ray, surfaces.boxes[i]));
+         });
 }
 
 TileIndex::TileIndex(const Surfaces& surfaces, const Camera& camera, double margin)

@@ -19,10 +19,11 @@ using test::TemporaryDirectory;
 using test::write_bytes;
 using testing::HasSubstr;
 
-const std::string recipe = test::recipe_text({.seed = 3, .width = 240, .tubes = "[1, 2]", .cases = 2});
-
 class ExperimentCommand : public testing::Test {
 protected:
+  static inline const std::string recipe =
+      test::recipe_text({.seed = 3, .width = 240, .tubes = "[1, 2]", .cases = 2});
+
   ExperimentCommand() { run_program("generate - --out " + path("dataset"), recipe); }
 
   std::string path(const std::string& name) const { return (directory_ / name).string(); }

@@ -25,10 +25,11 @@ using test::TemporaryDirectory;
 using test::write_bytes;
 using testing::HasSubstr;
 
-const std::string recipe = test::recipe_text({.seed = 6, .width = 192, .tubes = "[1]", .cases = 40});
-
 class FullDisk : public testing::Test {
 protected:
+  static inline const std::string recipe =
+      test::recipe_text({.seed = 6, .width = 192, .tubes = "[1]", .cases = 40});
+
   void SetUp() override {
     write_bytes(directory_ / "recipe.toml", recipe);
     fs::create_directory(disk_);

@@ -23,7 +23,9 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 // Two sets of few tubes and a coarse camera, so that a case is quick.
-constexpr const char* recipe = R"(
+class Generate : public testing::Test {
+protected:
+  static constexpr const char* recipe = R"(
 seed = 3
 [scanner]
 width = 192
@@ -48,8 +50,6 @@ length = 0.5
 bend_max_deg = 45
 )";
 
-class Generate : public testing::Test {
-protected:
   Generate() { write_bytes(recipe_, recipe); }
 
   std::string out(const std::string& name = "dataset") const { return (directory_ / name).string(); }

@@ -32,8 +32,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
-const std::string recipe = test::recipe_text({.seed = 5, .width = 48, .tubes = "[1]", .cases = 300});
-
 /// The program at work, whose standard output is read line by line.
 class RunningProgram {
 public:
@@ -92,6 +90,9 @@ private:
 
 class Interruption : public testing::Test {
 protected:
+  static inline const std::string recipe =
+      test::recipe_text({.seed = 5, .width = 48, .tubes = "[1]", .cases = 300});
+
   Interruption() { write_bytes(directory_ / "recipe.toml", recipe); }
 
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
@@ -184,7 +185,7 @@ TEST_F(Interruption, OutputThatIsLostIsAnError) {
 }
 
 TEST_F(Interruption, OfNoneLeavesAWorkerAsLargeAfterManyCasesAsAfterTheFirst) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TANGLEBIN_SANITIZE
   GTEST_SKIP() << "the sanitizer keeps what is freed";
 #endif
   ASSERT_EQ(run_program(generate("--jobs 1")).status, 0);

@@ -29,7 +29,14 @@ using test::TemporaryDirectory;
 using test::write_bytes;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* recipe = R"(
+int kills_wanted() {
+  const char* text = std::getenv("TANGLEBIN_KILLS");
+  return text == nullptr ? 30 : std::stoi(text);
+}
+
+class Kill : public testing::Test {
+protected:
+  static constexpr const char* recipe = R"(
 seed = 5
 [scanner]
 width = 96
@@ -47,13 +54,6 @@ length = 0.5
 bend_max_deg = 30
 )";
 
-int kills_wanted() {
-  const char* text = std::getenv("TANGLEBIN_KILLS");
-  return text == nullptr ? 30 : std::stoi(text);
-}
-
-class Kill : public testing::Test {
-protected:
   Kill() {
     write_bytes(directory_ / "recipe.toml", recipe);
     const Clock::time_point start = Clock::now();

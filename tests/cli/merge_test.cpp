@@ -17,10 +17,11 @@ using test::TemporaryDirectory;
 using test::write_bytes;
 using testing::HasSubstr;
 
-const std::string recipe = test::recipe_text({.seed = 3, .width = 96, .tubes = "[1]", .cases = 4});
-
 class Merge : public testing::Test {
 protected:
+  static inline const std::string recipe =
+      test::recipe_text({.seed = 3, .width = 96, .tubes = "[1]", .cases = 4});
+
   Merge() {
     for (const std::string shard : {"1", "2"}) {
       run_program("generate - --shard " + shard + "/2 --out " + path("part" + shard), recipe);

@@ -21,15 +21,15 @@ using testing::StartsWith;
 
 constexpr const char* png_signature = "\x89PNG\r\n\x1a\n";
 
-constexpr const char* one_tube =
-    "1\n"
-    "1 2 1\n"
-    "1 -0.1 0 0.0125 0.0125\n"
-    "2 0.1 0 0.0125 0.0125\n"
-    "e_1_2 1 2 1 0.0125 0 0 0.0125 0.7071067811865476 0 0.7071067811865476 0 0.2\n";
-
 class Preview : public testing::Test {
 protected:
+  static constexpr const char* one_tube =
+      "1\n"
+      "1 2 1\n"
+      "1 -0.1 0 0.0125 0.0125\n"
+      "2 0.1 0 0.0125 0.0125\n"
+      "e_1_2 1 2 1 0.0125 0 0 0.0125 0.7071067811865476 0 0.7071067811865476 0 0.2\n";
+
   Preview() {
     write("tube.txt", one_tube);
     std::ofstream ply(directory_ / "cloud.ply", std::ios::binary);

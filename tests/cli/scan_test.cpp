@@ -24,13 +24,6 @@ using testing::Each;
 using testing::HasSubstr;
 
 // One straight tube along x that lies on the floor.
-constexpr const char* one_tube = R"(1
-1 2 1
-1 -0.2 0 0.0125 0.0125
-2 0.2 0 0.0125 0.0125
-e_1_2 1 2 1 0.0125 0 0 0.0125 0.70710678 0 0.70710678 0 0.4
-)";
-
 std::vector<std::filesystem::path> published_files() {
   std::vector<std::filesystem::path> files;
   if (!std::filesystem::exists(TANGLEBIN_PUBLISHED)) return files;
@@ -42,6 +35,13 @@ std::vector<std::filesystem::path> published_files() {
 
 class ScanCommand : public testing::Test {
 protected:
+  static constexpr const char* one_tube = R"(1
+1 2 1
+1 -0.2 0 0.0125 0.0125
+2 0.2 0 0.0125 0.0125
+e_1_2 1 2 1 0.0125 0 0 0.0125 0.70710678 0 0.70710678 0 0.4
+)";
+
   ScanCommand() { write_bytes(configuration_, one_tube); }
 
   TemporaryDirectory directory_;

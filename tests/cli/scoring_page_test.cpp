@@ -19,7 +19,20 @@ using test::ProgramResult;
 using test::write_bytes;
 
 // Coarse clouds, so that they are quick to make.
-constexpr const char* recipe = R"(
+// The page's one block of code in a language.
+std::string block_of(const std::string& language) {
+  const std::string page = bytes_of(fs::path(TANGLEBIN_SOURCE) / "docs" / "scoring.md");
+  const std::string opening = "\n```" + language + "\n";
+  const std::size_t begin = page.find(opening);
+  if (begin == std::string::npos) return {};
+  const std::size_t code = begin + opening.size();
+  return page.substr(code, page.find("```", code) - code);
+}
+
+// A directory with a dataset of two clouds and the page's Python program.
+class ScoringPage : public testing::Test {
+protected:
+  static constexpr const char* recipe = R"(
 seed = 3
 
 [scanner]
@@ -38,19 +51,6 @@ mass = 0.5
 bend_max_deg = 30
 )";
 
-// The page's one block of code in a language.
-std::string block_of(const std::string& language) {
-  const std::string page = bytes_of(fs::path(TANGLEBIN_SOURCE) / "docs" / "scoring.md");
-  const std::string opening = "\n```" + language + "\n";
-  const std::size_t begin = page.find(opening);
-  if (begin == std::string::npos) return {};
-  const std::size_t code = begin + opening.size();
-  return page.substr(code, page.find("```", code) - code);
-}
-
-// A directory with a dataset of two clouds and the page's Python program.
-class ScoringPage : public testing::Test {
-protected:
   ScoringPage() {
     write_bytes(directory_ / "recipe.toml", recipe);
     write_bytes(directory_ / "label.py", block_of("python"));

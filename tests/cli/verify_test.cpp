@@ -18,10 +18,11 @@ using test::write_bytes;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string recipe = test::recipe_text({.seed = 3, .width = 96, .tubes = "[2]", .cases = 3});
-
 class Verify : public testing::Test {
 protected:
+  static inline const std::string recipe =
+      test::recipe_text({.seed = 3, .width = 96, .tubes = "[2]", .cases = 3});
+
   Verify() { run_program("generate - --out " + path("dataset"), recipe); }
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
   ProgramResult verify(const std::string& options = {}) const {

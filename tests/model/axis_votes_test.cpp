@@ -37,7 +37,7 @@ std::ptrdiff_t count_votes(const AxisVotes& votes) {
   return std::ranges::count_if(votes.votes, [](const auto& vote) { return vote.allFinite(); });
 }
 
-constexpr double radius = 0.0125;
+using test::radius;
 
 AxisVotes votes_of(const std::vector<Eigen::Vector3f>& points) {
   const KnownScene scene = paper_scene();

@@ -13,7 +13,7 @@ namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double radius = 0.0125;
+using test::radius;
 
 // Points with true normals, spread evenly over the upper half of a cylinder from a to b.
 void add_half_cylinder(OrientedCloud& cloud, const Vector3d& a, const Vector3d& b, int points, Rng& rng) {

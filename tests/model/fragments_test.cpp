@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scanned.hpp"
+
 namespace tanglebin {
 namespace {
 
@@ -14,7 +16,7 @@ using Eigen::Vector3f;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-constexpr double radius = 0.0125;
+using test::radius;
 
 // Votes along an axis, with the normals of the upper half of the surface around it.
 void add_axis(AxisVotes& votes, const Vector3d& from, const Vector3d& to) {

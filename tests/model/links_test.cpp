@@ -17,7 +17,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 // A straight piece of a tube, as it would be found.
-Fragment piece(const Vector3d& from, const Vector3d& to) {
+Fragment fragment(const Vector3d& from, const Vector3d& to) {
   const Vector3d direction = (to - from).normalized();
   return {.points = {},
           .nodes = {from, to},
@@ -42,7 +42,7 @@ std::vector<Link> chosen_of(const std::vector<Fragment>& fragments, const TubeKi
 
 TEST(Links, JoinEndsThatFaceEachOtherAndSayHowFarApartTheyAre) {
   const std::vector<Link> chosen =
-      chosen_of({piece({-0.2, 0, 0.05}, {-0.05, 0, 0.05}), piece({0, 0, 0.05}, {0.15, 0, 0.05})}, {});
+      chosen_of({fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}), fragment({0, 0, 0.05}, {0.15, 0, 0.05})}, {});
   ASSERT_THAT(chosen, SizeIs(1));
   const Link& link = chosen.front();
   EXPECT_EQ(link.kind, LinkKind::chain_ends);
@@ -62,8 +62,8 @@ TEST(Links, PreferTheStraightWay) {
   TubeKind kind;
   kind.length = 0.36;
   const std::vector<Link> chosen =
-      chosen_of({piece({-0.2, 0, 0.05}, {-0.05, 0, 0.05}), piece({0, 0, 0.05}, {0.15, 0, 0.05}),
-                 piece({0, 0.05, 0.05}, {0, 0.18, 0.05})},
+      chosen_of({fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}), fragment({0, 0, 0.05}, {0.15, 0, 0.05}),
+                 fragment({0, 0.05, 0.05}, {0, 0.18, 0.05})},
                 kind);
   ASSERT_THAT(chosen, SizeIs(1));
   EXPECT_EQ(chosen.front().fragment, 0U);
@@ -71,8 +71,8 @@ TEST(Links, PreferTheStraightWay) {
 }
 
 TEST(Links, AreNotWhereTheSensorSawThatThereIsNothing) {
-  const std::vector<Fragment> fragments = {piece({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
-                                           piece({0.05, 0, 0.05}, {0.2, 0, 0.05})};
+  const std::vector<Fragment> fragments = {fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
+                                           fragment({0.05, 0, 0.05}, {0.2, 0, 0.05})};
   EXPECT_THAT(links_of(fragments, {}), testing::Not(IsEmpty()));
   // The empty bin: the sensor saw its floor between the two.
   EXPECT_THAT(links_of(fragments, {}, test::scanned({})), IsEmpty());
@@ -80,8 +80,8 @@ TEST(Links, AreNotWhereTheSensorSawThatThereIsNothing) {
 
 TEST(Links, MakeNoTubeLongerThanItIs) {
   TubeKind kind;
-  const std::vector<Fragment> fragments = {piece({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
-                                           piece({0, 0, 0.05}, {0.15, 0, 0.05})};
+  const std::vector<Fragment> fragments = {fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
+                                           fragment({0, 0, 0.05}, {0.15, 0, 0.05})};
   kind.length = 0.36;
   EXPECT_THAT(links_of(fragments, kind), testing::Not(IsEmpty()));
   kind.length = 0.33;
@@ -93,8 +93,8 @@ TEST(Links, GiveUpTheWeakestWhereTheTubeWouldBecomeTooLong) {
   TubeKind kind;
   kind.length = 0.24;
   const std::vector<Link> chosen =
-      chosen_of({piece({-0.25, 0, 0.05}, {-0.15, 0, 0.05}), piece({-0.13, 0, 0.05}, {-0.03, 0, 0.05}),
-                 piece({0.02, 0, 0.05}, {0.12, 0, 0.05})},
+      chosen_of({fragment({-0.25, 0, 0.05}, {-0.15, 0, 0.05}), fragment({-0.13, 0, 0.05}, {-0.03, 0, 0.05}),
+                 fragment({0.02, 0, 0.05}, {0.12, 0, 0.05})},
                 kind);
   ASSERT_THAT(chosen, SizeIs(1));
   EXPECT_NEAR(chosen.front().gap, 0.02, 1e-12);  // not the gap of 5 cm
@@ -104,8 +104,8 @@ TEST(Links, GiveUpTheWeakestWhereTheTubeWouldBecomeTooLong) {
 // leave the outer ones alone.
 TEST(Links, AreExchangedForOnesThatAreHeavierTogether) {
   const std::vector<Fragment> row = {
-      piece({-0.23, 0, 0.05}, {-0.13, 0, 0.05}), piece({-0.11, 0, 0.05}, {-0.01, 0, 0.05}),
-      piece({0.005, 0, 0.05}, {0.105, 0, 0.05}), piece({0.125, 0, 0.05}, {0.225, 0, 0.05})};
+      fragment({-0.23, 0, 0.05}, {-0.13, 0, 0.05}), fragment({-0.11, 0, 0.05}, {-0.01, 0, 0.05}),
+      fragment({0.005, 0, 0.05}, {0.105, 0, 0.05}), fragment({0.125, 0, 0.05}, {0.225, 0, 0.05})};
   for (const int junctions : {0, 1}) {
     const std::vector<Link> chosen = chosen_of(row, {.length = 0.24, .junctions = junctions});
     ASSERT_THAT(chosen, SizeIs(2)) << junctions;
@@ -116,9 +116,10 @@ TEST(Links, AreExchangedForOnesThatAreHeavierTogether) {
 TEST(Links, CloseNoTube) {
   // Four sides of a square: three joins make it an open chain.
   const double s = 0.08;
-  const std::vector<Fragment> square = {
-      piece({-s, -s - 0.02, 0.05}, {s, -s - 0.02, 0.05}), piece({s + 0.02, -s, 0.05}, {s + 0.02, s, 0.05}),
-      piece({s, s + 0.02, 0.05}, {-s, s + 0.02, 0.05}), piece({-s - 0.02, s, 0.05}, {-s - 0.02, -s, 0.05})};
+  const std::vector<Fragment> square = {fragment({-s, -s - 0.02, 0.05}, {s, -s - 0.02, 0.05}),
+                                        fragment({s + 0.02, -s, 0.05}, {s + 0.02, s, 0.05}),
+                                        fragment({s, s + 0.02, 0.05}, {-s, s + 0.02, 0.05}),
+                                        fragment({-s - 0.02, s, 0.05}, {-s - 0.02, -s, 0.05})};
   TubeKind kind;
   kind.length = 2;
   EXPECT_THAT(chosen_of(square, kind), SizeIs(3));
@@ -127,11 +128,11 @@ TEST(Links, CloseNoTube) {
 TEST(Links, OfTreesLeadToJunctionsToo) {
   TubeKind kind;
   kind.junctions = 1;
-  Fragment bar = piece({-0.1, 0, 0.05}, {0.1, 0, 0.05});
+  Fragment bar = fragment({-0.1, 0, 0.05}, {0.1, 0, 0.05});
   bar.nodes = {{-0.1, 0, 0.05}, {0, 0, 0.05}, {0.1, 0, 0.05}};
   bar.parents = {0, 0, 1};
   bar.ends[1].node = 2;
-  const std::vector<Link> chosen = chosen_of({bar, piece({0, 0.02, 0.05}, {0, 0.12, 0.05})}, kind);
+  const std::vector<Link> chosen = chosen_of({bar, fragment({0, 0.02, 0.05}, {0, 0.12, 0.05})}, kind);
   ASSERT_THAT(chosen, SizeIs(1));
   EXPECT_EQ(chosen.front().kind, LinkKind::junction);
   EXPECT_EQ(chosen.front().fragment, 1U);

@@ -5,17 +5,14 @@
 
 #include <limits>
 
+#include "scanned.hpp"
 #include "tanglebin/base/random.hpp"
 
 namespace tanglebin {
 namespace {
 
+using test::small_camera;
 using testing::IsEmpty;
-
-// A camera 2 m above the origin whose pixels are 2 mm wide on the floor.
-Camera small_camera() {
-  return downward_camera(101, 101, 1000, {0, 0, 2});
-}
 
 std::vector<Eigen::Vector3f> points_of(const PixelGrid::Run& run) {
   std::vector<Eigen::Vector3f> found;

@@ -11,11 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 using test::cloud_of;
-
-// A camera 2 m above the origin whose pixels are 2 mm wide on the floor.
-Camera small_camera() {
-  return downward_camera(101, 101, 1000, {0, 0, 2});
-}
+using test::small_camera;
 
 TEST(RangeImage, HidesAWayUnderWhatIsNearerThanItsFartherEnd) {
   const RangeImage image(cloud_of({{0, 0, 0.5F}}), small_camera());

@@ -14,11 +14,18 @@ inline KnownScene paper_scene() {
   return {.bin = bin_preset("paper"), .camera = camera_preset("paper")};
 }
 
+inline constexpr double radius = 0.0125;  ///< m, of the paper's tubes
+
 /// What the paper's scanner sees of tubes in the paper's bin, the bin included.
 inline PointCloud scanned(const std::vector<Tube>& tubes) {
   const KnownScene scene = paper_scene();
   return cloud_from_scan(scan(tubes, scene.bin, scene.camera), CloudOf::tubes_and_bin,
                          static_cast<int>(tubes.size()));
+}
+
+/// A camera 2 m above the origin whose pixels are 2 mm wide on the floor.
+inline Camera small_camera() {
+  return downward_camera(101, 101, 1000, {0, 0, 2});
 }
 
 /// A cloud of points without labels.
@@ -31,7 +38,7 @@ inline PointCloud cloud_of(const std::vector<Eigen::Vector3f>& points) {
 
 /// A tube that lies on the floor along x, half a metre long, at this y.
 inline Tube straight_tube(int id, double y) {
-  return chain(id, 0.0125, {{-0.25, y, 0.0125}, {0.25, y, 0.0125}});
+  return chain(id, radius, {{-0.25, y, radius}, {0.25, y, radius}});
 }
 
 }  // namespace tanglebin::test

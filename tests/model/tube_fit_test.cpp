@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "../scan/scene.hpp"
+#include "scanned.hpp"
 #include "tanglebin/score/score_tubes.hpp"
 
 namespace tanglebin {
@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double radius = 0.0125;
+using test::radius;
 
 /// A fragment along straight pieces, and points on the upper half of the tube around them.
 struct Piece {

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-constexpr double degree = std::numbers::pi / 180;
+using test::degree;
 
 double field_of_view(double pixels, double focal_length) {
   return 2 * std::atan(pixels / (2 * focal_length));

@@ -37,12 +37,12 @@ double box_distance(const AlignedBox3d& box, const Vector3d& p) {
 
 /// An independent truth. The signed distance to a convex solid is convex along a ray, so its least value is
 /// found by ternary search, and the crossings lie to either side of it.
-struct Truth {
+struct Found {
   double least;                    ///< of the signed distance along the ray
   std::optional<double> crossing;  ///< the first t >= 0 at which it is 0
 };
 
-Truth search(const Ray& ray, const SignedDistance& distance, double far) {
+Found search(const Ray& ray, const SignedDistance& distance, double far) {
   const auto at = [&](double t) { return distance(ray.origin + t * ray.direction); };
   double low = 0;
   double high = far;
@@ -51,7 +51,7 @@ Truth search(const Ray& ray, const SignedDistance& distance, double far) {
     (at(low + third) < at(high - third) ? high : low) += at(low + third) < at(high - third) ? -third : third;
   }
   const double deepest = (low + high) / 2;
-  Truth truth{at(deepest), std::nullopt};
+  Found truth{at(deepest), std::nullopt};
   if (truth.least > 0) return truth;
   const bool inside = at(0) < 0;
   double outer = inside ? far : 0;
@@ -67,7 +67,7 @@ Truth search(const Ray& ray, const SignedDistance& distance, double far) {
 /// Compares a closed form with the search, but for rays so close to tangent that rounding decides.
 void expect_agreement(const Ray& ray, const std::optional<SurfaceHit>& hit, const SignedDistance& distance) {
   constexpr double tangent = 1e-12;
-  const Truth truth = search(ray, distance, 20);
+  const Found truth = search(ray, distance, 20);
   if (std::abs(truth.least) < tangent) return;
   ASSERT_EQ(hit.has_value(), truth.crossing.has_value()) << "closest approach " << truth.least;
   if (!hit) return;

@@ -22,10 +22,9 @@ namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
+using test::degree;
+using test::seed;
 using test::wide_bin;
-
-constexpr double degree = std::numbers::pi / 180;
-constexpr std::uint64_t seed = 2022;
 
 /// 120,000 pixels of a Zivid's focal length that look straight down.
 Camera camera_above(double height) {

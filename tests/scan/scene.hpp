@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "tanglebin/base/random.hpp"
@@ -12,6 +14,9 @@
 namespace tanglebin::test {
 
 using Eigen::Vector3d;
+
+inline constexpr double degree = std::numbers::pi / 180;
+inline constexpr std::uint64_t seed = 2022;
 
 inline Vector3d random_point(Rng& rng, const Eigen::AlignedBox3d& box) {
   Vector3d point;

@@ -16,9 +16,8 @@ namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
+using test::seed;
 using test::wide_bin;
-
-constexpr std::uint64_t seed = 2022;
 
 // Where the two tangents from (x, z) to a circle meet the floor: the circle's shadow.
 struct Interval {

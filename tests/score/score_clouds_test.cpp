@@ -19,12 +19,12 @@ namespace tanglebin {
 namespace {
 
 using test::complaint;
-using Labels = std::vector<std::int32_t>;
+using LabelsOfPoints = std::vector<std::int32_t>;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 /// A point for each label, 1 cm apart.
-PointCloud cloud_with(const Labels& labels) {
+PointCloud cloud_with(const LabelsOfPoints& labels) {
   PointCloud cloud;
   cloud.labels = labels;
   cloud.width = labels.size();
@@ -55,7 +55,7 @@ Score score_of(const PointCloud& truth, const PointCloud& labelled) {
   return score_clouds(truth, "truth.ply", labelled, "labelled.ply");
 }
 
-Labels matched(const PointCloud& truth, const PointCloud& labelled) {
+LabelsOfPoints matched(const PointCloud& truth, const PointCloud& labelled) {
   return match_points(truth, labelled, labelled.labels, "labelled.ply");
 }
 
@@ -107,8 +107,8 @@ TEST(MatchPoints, MatchesPointsOfOnePlaceInTheirOrder) {
   const PointCloud twice = chosen(cloud_with({1, 2, 3}), {0, 1, 0});
   PointCloud labelled = twice;
   labelled.labels = {4, 5, 6};
-  EXPECT_EQ(matched(twice, labelled), (Labels{4, 5, 6}));
-  EXPECT_EQ(matched(twice, chosen(labelled, {2})), (Labels{6, null_label, null_label}));
+  EXPECT_EQ(matched(twice, labelled), (LabelsOfPoints{4, 5, 6}));
+  EXPECT_EQ(matched(twice, chosen(labelled, {2})), (LabelsOfPoints{6, null_label, null_label}));
 }
 
 TEST(MatchPoints, MorePointsAtOnePlaceThanInTheTruthAreAnError) {
@@ -123,8 +123,8 @@ TEST(MatchPoints, MorePointsAtOnePlaceThanInTheTruthAreAnError) {
 TEST(MatchPoints, PassesOverPointsWithoutAPosition) {
   PointCloud truth = cloud_with({1, 1, 2});
   truth.points[1].x() = nan;
-  EXPECT_EQ(matched(truth, truth), (Labels{1, null_label, 2}));
-  EXPECT_EQ(truth_labels(truth, "truth.ply"), (Labels{1, null_label, 2}));
+  EXPECT_EQ(matched(truth, truth), (LabelsOfPoints{1, null_label, 2}));
+  EXPECT_EQ(truth_labels(truth, "truth.ply"), (LabelsOfPoints{1, null_label, 2}));
   EXPECT_EQ(score_of(truth, truth).points, 2);
 }
 
@@ -132,7 +132,7 @@ TEST(MatchPoints, ZeroHasNoSign) {
   const PointCloud truth = cloud_with({1});
   PointCloud labelled = truth;
   labelled.points[0].y() = -0.0F;
-  EXPECT_EQ(matched(truth, labelled), Labels{1});
+  EXPECT_EQ(matched(truth, labelled), LabelsOfPoints{1});
 }
 
 RC_GTEST_PROP(MatchPoints, FindsEveryPointOfAShuffledSubset, ()) {
@@ -153,7 +153,7 @@ RC_GTEST_PROP(MatchPoints, FindsEveryPointOfAShuffledSubset, ()) {
   PointCloud labelled = chosen(truth, places);
   for (std::size_t i = 0; i < places.size(); ++i) labelled.labels.push_back(static_cast<std::int32_t>(i + 1));
 
-  const Labels labels = matched(truth, labelled);
+  const LabelsOfPoints labels = matched(truth, labelled);
   RC_ASSERT(std::ranges::count(labels, null_label) == static_cast<std::ptrdiff_t>(size - places.size()));
   for (std::size_t i = 0; i < size; ++i) {
     if (labels[i] == null_label) continue;
@@ -174,20 +174,20 @@ TEST(MatchPoints, FindsPointsWrittenAsTextOrInDoublePrecision) {
     text += line.str();
   }
   std::istringstream stream(text);
-  EXPECT_EQ(matched(truth, read_cloud(stream, "labelled.ply")), (Labels{1, 2, 3}));
+  EXPECT_EQ(matched(truth, read_cloud(stream, "labelled.ply")), (LabelsOfPoints{1, 2, 3}));
 }
 
 TEST(LabelsFromColors, InTheTruthGreyIsTheBinAndBlackNull) {
   const Color grey = label_colors(0).front();
   const PointCloud truth =
       in_color(cloud_with({0, 0, 0, 0, 0}), {{9, 0, 0}, grey, null_color, {1, 2, 3}, {9, 0, 0}});
-  EXPECT_EQ(truth_labels(truth, "truth.ply"), (Labels{2, bin_label, null_label, 1, 2}));
+  EXPECT_EQ(truth_labels(truth, "truth.ply"), (LabelsOfPoints{2, bin_label, null_label, 1, 2}));
 }
 
 TEST(LabelsFromColors, InALabelledCloudGreyIsALabelAndBlackNull) {
   const Color grey = label_colors(0).front();
   const PointCloud labelled = in_color(cloud_with({0, 0, 0}), {grey, null_color, {1, 2, 3}});
-  EXPECT_EQ(predicted_labels(labelled, "labelled.ply"), (Labels{2, null_label, 1}));
+  EXPECT_EQ(predicted_labels(labelled, "labelled.ply"), (LabelsOfPoints{2, null_label, 1}));
 }
 
 TEST(LabelsFromColors, LabelsComeBeforeColors) {
@@ -197,7 +197,7 @@ TEST(LabelsFromColors, LabelsComeBeforeColors) {
 }
 
 TEST(LabelsFromColors, ScoreAsTheLabelsThemselves) {
-  const Labels labels = {0, 1, 1, 2, 3, 3, 3};
+  const LabelsOfPoints labels = {0, 1, 1, 2, 3, 3, 3};
   const std::vector<Color> palette = label_colors(3);
   std::vector<Color> colors;
   for (const auto label : labels) colors.push_back(palette[static_cast<std::size_t>(label)]);

@@ -9,6 +9,9 @@
 
 namespace tanglebin::test {
 
+/// Of closed forms in double precision, relative, or m for tubes of some decimetres.
+inline constexpr double rounding = 1e-12;
+
 inline double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
 }

@@ -25,9 +25,11 @@ namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
+using std::numbers::pi;
 using test::chain_spec;
 using test::equal_counts_p;
 using test::radians;
+using test::rounding;
 using test::same_distribution_p;
 using test::significance;
 using test::tree_spec;
@@ -37,8 +39,6 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr double pi = std::numbers::pi;
-constexpr double rounding = 1e-12;
 constexpr double shortest = 0.02;  // m, of every cylinder of the sets
 constexpr int many = 10000;
 

@@ -19,11 +19,11 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using std::numbers::pi;
 using test::radians;
+using test::rounding;
 
-constexpr double pi = std::numbers::pi;
 constexpr double r = 0.0125;
-constexpr double rounding = 1e-12;
 
 // Two cylinders of 50 and 40 mm that bend into each other towards an azimuth.
 Tube bent_tube(double bend, double azimuth = 0) {

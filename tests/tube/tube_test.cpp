@@ -11,8 +11,7 @@ namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double rounding = 1e-12;
+using test::rounding;
 
 Tube any_tree() {
   Rng rng(*rc::gen::arbitrary<std::uint64_t>());
