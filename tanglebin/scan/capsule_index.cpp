@@ -22,14 +22,6 @@ constexpr double end_on_angle = 0.05;  // rad
 // a candidate.
 constexpr double shortest_length = 0.1;  // radii
 
-/// So large that the central ray of a beam meets the capsule where any ray of the beam meets the true one:
-/// two rays from one point that deviate by an angle are, at a distance, no further apart than distance ·
-/// sin(angle).
-double radius_for_beam(const Capsule& capsule, const BeamShape& beam) {
-  const double farthest = std::max((capsule.a - beam.origin).norm(), (capsule.b - beam.origin).norm());
-  return capsule.radius + (farthest + capsule.radius) * beam.spread;
-}
-
 /// So much larger that rounding does not make Embree miss it. With e = 2⁻²⁴, s the sine of the angle between
 /// ray and axis and L the length, rounding changes the discriminant of Embree's quadratic equation as much as
 /// a change of radius² by c e (2 L² + 2 L radius / s) does, c less than 10; and rounding of coordinates
@@ -84,6 +76,13 @@ Eigen::AlignedBox3d bounding_box(const std::vector<Capsule>& capsules) {
     box.extend(capsule.a.cwiseMax(capsule.b) + margin);
   }
   return box;
+}
+
+// Two rays from one point that deviate by an angle are, at a distance, no further apart than distance ·
+// sin(angle).
+double radius_for_beam(const Capsule& capsule, const BeamShape& beam) {
+  const double farthest = std::max((capsule.a - beam.origin).norm(), (capsule.b - beam.origin).norm());
+  return capsule.radius + (farthest + capsule.radius) * beam.spread;
 }
 
 struct CapsuleIndex::Embree {

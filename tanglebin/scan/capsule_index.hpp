@@ -18,9 +18,13 @@ struct BeamShape {
   double spread;           ///< sine of the largest angle between the central direction and a ray
 };
 
+/// The radius (m) with which the central ray of a beam meets the capsule where any ray of the beam meets the
+/// true one, and no later.
+double radius_for_beam(const Capsule& capsule, const BeamShape& beam);
+
 /// Says which capsules the rays of a beam may meet: an Embree scene of capsules, each thickened by the beam's
-/// spread at its distance, so that the beam's central ray meets the thickened capsule where any ray of the
-/// beam meets the true one. What is true for a ray of the beam is then up to ray_capsule().
+/// spread at its distance (radius_for_beam()). What is true for a ray of the beam is then up to
+/// ray_capsule().
 class CapsuleIndex {
 public:
   /// For beams of this shape in any direction. Throws std::runtime_error where Embree fails.

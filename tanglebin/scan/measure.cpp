@@ -223,20 +223,17 @@ private:
     double nearest = std::numeric_limits<double>::infinity();
     double farthest = -nearest;
     int hits = 0;
-    int misses = 0;
     for (const double du : {-corner, corner}) {
       for (const double dv : {-corner, corner}) {
-        if (const auto hit = trace(u + du, v + dv)) {
-          ++hits;
-          nearest = std::min(nearest, hit->depth);
-          farthest = std::max(farthest, hit->depth);
-        } else {
-          ++misses;
-        }
-        if ((hits > 0 && misses > 0) || farthest - nearest > sensor_.edge_jump) return true;
+        const auto hit = trace(u + du, v + dv);
+        if (!hit) continue;
+        ++hits;
+        nearest = std::min(nearest, hit->depth);
+        farthest = std::max(farthest, hit->depth);
       }
     }
-    return false;
+    constexpr int corners = 4;
+    return hits > 0 && (hits < corners || farthest - nearest > sensor_.edge_jump);
   }
 
   /// The nearest of the surfaces that a footprint's sub-rays meet, at the mean depth of all, weighted by

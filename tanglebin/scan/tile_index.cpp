@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace tanglebin {
 namespace {
@@ -32,15 +34,34 @@ int choose_tile_size(const Camera& camera, double margin) {
   return size;
 }
 
-/// The boxes, so much larger that the central ray of a beam meets one where any ray of the beam meets the
-/// true one (see CapsuleIndex); the last term is for rounding.
+constexpr double rounding = 1e-9;  // of metres
+
+/// The surfaces, so much larger that the central ray of a beam meets one where any ray of the beam meets the
+/// true one, and no later.
 std::array<AlignedBox3d, 5> thickened(std::array<AlignedBox3d, 5> boxes, const BeamShape& beam) {
   for (AlignedBox3d& box : boxes) {
     const double farthest = (box.center() - beam.origin).norm() + box.diagonal().norm() / 2;
-    const Vector3d margin = Vector3d::Constant(farthest * (beam.spread + 1e-9));
+    const Vector3d margin = Vector3d::Constant(farthest * (beam.spread + rounding));
     box = AlignedBox3d(box.min() - margin, box.max() + margin);
   }
   return boxes;
+}
+
+std::vector<Capsule> thickened(std::vector<Capsule> capsules, const BeamShape& beam) {
+  for (Capsule& capsule : capsules) capsule.radius = radius_for_beam(capsule, beam) + rounding;
+  return capsules;
+}
+
+BeamShape beam_of_tile(const Camera& camera, double margin, int tile_size) {
+  return {camera.pose.translation(), tile_spread(camera, margin, tile_size)};
+}
+
+/// Where the central ray of a beam meets a thickened surface; a ray that starts inside has met it already.
+void add(std::vector<Candidate>& candidates, std::size_t index, const std::optional<SurfaceHit>& hit,
+         const Ray& central) {
+  if (!hit) return;
+  const bool enters = hit->normal.dot(central.direction) < 0;
+  candidates.push_back({index, enters ? hit->distance : 0});
 }
 
 /// Are both points outside of the same face, and with them all between them?
@@ -89,46 +110,63 @@ PixelWindow window_of(const Surfaces& surfaces, const Camera& camera, double mar
 
 std::optional<LabelledHit> first_hit(const Surfaces& surfaces, const Candidates& candidates, const Ray& ray) {
   std::optional<LabelledHit> first;
-  const auto keep_nearer = [&](const std::optional<SurfaceHit>& hit, std::int32_t label) {
-    if (hit && (!first || hit->distance < first->surface.distance)) first = LabelledHit{*hit, label};
+  std::pair<double, std::size_t> place(std::numeric_limits<double>::infinity(), 0);  // distance, then order
+  const auto keep_nearer = [&](const std::optional<SurfaceHit>& hit, std::int32_t label, std::size_t order) {
+    if (!hit || std::pair(hit->distance, order) >= place) return;
+    first = LabelledHit{*hit, label};
+    place = {hit->distance, order};
   };
-  for (const std::size_t i : candidates.boxes) keep_nearer(ray_box(ray, surfaces.boxes[i]), bin_label);
-  for (const std::size_t i : candidates.capsules) {
-    keep_nearer(ray_capsule(ray, surfaces.capsules[i]), surfaces.labels[i]);
+  for (const auto& [i, nearest] : candidates.capsules) {
+    if (nearest > place.first) break;
+    keep_nearer(ray_capsule(ray, surfaces.capsules[i]), surfaces.labels[i], surfaces.boxes.size() + i);
+  }
+  for (const auto& [i, nearest] : candidates.boxes) {
+    if (nearest > place.first) break;
+    keep_nearer(ray_box(ray, surfaces.boxes[i]), bin_label, i);
   }
   return first;
 }
 
 bool is_blocked(const Surfaces& surfaces, const Candidates& candidates, const Ray& ray, double distance) {
-  const auto blocks = [&](const std::optional<SurfaceHit>& hit) { return hit && hit->distance < distance; };
+  for (const auto& [i, nearest] : candidates.capsules) {
+    if (nearest >= distance) break;
+    if (const auto hit = ray_capsule(ray, surfaces.capsules[i]); hit && hit->distance < distance) return true;
+  }
   // Most ways end on the floor, and its plane tells that it is not between.
   const Vector3d end = ray.origin + distance * ray.direction;
-  const auto is_outside = [&](const AlignedBox3d& box) { return lie_outside_of_a_face(box, ray.origin, end); };
-  return std::ranges::any_of(candidates.capsules,
-                             [&](std::size_t i) { return blocks(ray_capsule(ray, surfaces.capsules[i])); }) ||
-         std::ranges::any_of(candidates.boxes, [&](std::size_t i) {
-           return !is_outside(surfaces.boxes[i]) && blocks(ray_box(ray, surfaces.boxes[i]));
-         });
+  for (const auto& [i, nearest] : candidates.boxes) {
+    if (nearest >= distance) break;
+    if (lie_outside_of_a_face(surfaces.boxes[i], ray.origin, end)) continue;
+    if (const auto hit = ray_box(ray, surfaces.boxes[i]); hit && hit->distance < distance) return true;
+  }
+  return false;
 }
 
 TileIndex::TileIndex(const Surfaces& surfaces, const Camera& camera, double margin)
-    : TileIndex(surfaces, camera, margin, choose_tile_size(camera, margin)) {}
+    : TileIndex(surfaces, camera, beam_of_tile(camera, margin, choose_tile_size(camera, margin)),
+                choose_tile_size(camera, margin)) {}
 
-TileIndex::TileIndex(const Surfaces& surfaces, const Camera& camera, double margin, int tile_size)
+TileIndex::TileIndex(const Surfaces& surfaces, const Camera& camera, const BeamShape& beam, int tile_size)
     : camera_(camera),
       tile_size_(tile_size),
-      capsule_index_(surfaces.capsules, {camera.pose.translation(), tile_spread(camera, margin, tile_size)}),
-      thick_boxes_(
-          thickened(surfaces.boxes, {camera.pose.translation(), tile_spread(camera, margin, tile_size)})) {}
+      capsule_index_(surfaces.capsules, beam),
+      thick_capsules_(thickened(surfaces.capsules, beam)),
+      thick_boxes_(thickened(surfaces.boxes, beam)) {}
 
 void TileIndex::find(int left, int top, Candidates& found) const {
   const double half = (tile_size_ - 1) / 2.0;
   const Ray central = ray_through(camera_, left + half, top + half);
-  capsule_index_.candidates(central.direction, found.capsules);
+  std::vector<std::size_t> capsules;
+  capsule_index_.candidates(central.direction, capsules);
+  found.capsules.clear();
+  for (const std::size_t i : capsules)
+    add(found.capsules, i, ray_capsule(central, thick_capsules_[i]), central);
+  std::ranges::sort(found.capsules, {}, &Candidate::nearest);
   found.boxes.clear();
   for (std::size_t i = 0; i < thick_boxes_.size(); ++i) {
-    if (ray_box(central, thick_boxes_[i])) found.boxes.push_back(i);
+    add(found.boxes, i, ray_box(central, thick_boxes_[i]), central);
   }
+  std::ranges::sort(found.boxes, {}, &Candidate::nearest);
 }
 
 }  // namespace tanglebin

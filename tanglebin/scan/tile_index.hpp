@@ -31,10 +31,14 @@ Surfaces surfaces_of(const std::vector<Tube>& tubes, const Bin& bin);
 /// the scene is only partly in front of the camera.
 PixelWindow window_of(const Surfaces& surfaces, const Camera& camera, double margin);
 
-/// What the rays of a tile may meet: indices into the surfaces' arrays.
+/// What the rays of a tile may meet, nearest first.
+struct Candidate {
+  std::size_t index;  ///< in the surfaces' array
+  double nearest;     ///< m: no ray of the tile meets it nearer to its origin
+};
 struct Candidates {
-  std::vector<std::size_t> boxes;
-  std::vector<std::size_t> capsules;
+  std::vector<Candidate> boxes;
+  std::vector<Candidate> capsules;
 };
 
 struct LabelledHit {
@@ -61,11 +65,12 @@ public:
   void find(int left, int top, Candidates& found) const;
 
 private:
-  TileIndex(const Surfaces& surfaces, const Camera& camera, double margin, int tile_size);
+  TileIndex(const Surfaces& surfaces, const Camera& camera, const BeamShape& beam, int tile_size);
 
   const Camera& camera_;
   int tile_size_;
   CapsuleIndex capsule_index_;
+  std::vector<Capsule> thick_capsules_;  ///< as thick as the beam needs, and so the boxes
   std::array<Eigen::AlignedBox3d, 5> thick_boxes_;
 };
 
