@@ -52,10 +52,6 @@ std::vector<Capsule> thickened(std::vector<Capsule> capsules, const BeamShape& b
   return capsules;
 }
 
-BeamShape beam_of_tile(const Camera& camera, double margin, int tile_size) {
-  return {camera.pose.translation(), tile_spread(camera, margin, tile_size)};
-}
-
 /// Where the central ray of a beam meets a thickened surface; a ray that starts inside has met it already.
 void add(std::vector<Candidate>& candidates, std::size_t index, const std::optional<SurfaceHit>& hit,
          const Ray& central) {
@@ -143,15 +139,12 @@ bool is_blocked(const Surfaces& surfaces, const Candidates& candidates, const Ra
 }
 
 TileIndex::TileIndex(const Surfaces& surfaces, const Camera& camera, double margin)
-    : TileIndex(surfaces, camera, beam_of_tile(camera, margin, choose_tile_size(camera, margin)),
-                choose_tile_size(camera, margin)) {}
-
-TileIndex::TileIndex(const Surfaces& surfaces, const Camera& camera, const BeamShape& beam, int tile_size)
     : camera_(camera),
-      tile_size_(tile_size),
-      capsule_index_(surfaces.capsules, beam),
-      thick_capsules_(thickened(surfaces.capsules, beam)),
-      thick_boxes_(thickened(surfaces.boxes, beam)) {}
+      tile_size_(choose_tile_size(camera, margin)),
+      beam_{camera.pose.translation(), tile_spread(camera, margin, tile_size_)},
+      capsule_index_(surfaces.capsules, beam_),
+      thick_capsules_(thickened(surfaces.capsules, beam_)),
+      thick_boxes_(thickened(surfaces.boxes, beam_)) {}
 
 void TileIndex::find(int left, int top, Candidates& found) const {
   const double half = (tile_size_ - 1) / 2.0;

@@ -65,10 +65,9 @@ public:
   void find(int left, int top, Candidates& found) const;
 
 private:
-  TileIndex(const Surfaces& surfaces, const Camera& camera, const BeamShape& beam, int tile_size);
-
   const Camera& camera_;
   int tile_size_;
+  BeamShape beam_;  ///< of a tile's rays
   CapsuleIndex capsule_index_;
   std::vector<Capsule> thick_capsules_;  ///< as thick as the beam needs, and so the boxes
   std::array<Eigen::AlignedBox3d, 5> thick_boxes_;
