@@ -43,8 +43,10 @@ public:
     if (tubes_[from] <= bin_label || tubes_[from] != tubes_[to]) return false;
     const CentreLine& line = lines_.at(tubes_[from]);
     if (!leads(line, fragments_[from].ends[link.end], from, to)) return false;
-    if (link.to.end && !leads(line, fragments_[to].ends[*link.to.end], to, from)) return false;
-    return (link.to.end || is_as_near_as_it_seems(line, link)) && is_nothing_between(line, from, to);
+    const bool is_met = link.kind == LinkKind::junction
+                            ? is_as_near_as_it_seems(line, link)
+                            : leads(line, fragments_[to].ends[*link.to.end], to, from);
+    return is_met && is_nothing_between(line, from, to);
   }
 
 private:
@@ -60,7 +62,7 @@ private:
     constexpr double stretch = 1.3;  // a bent way is longer than the gap, by so much ...
     constexpr double slack = 0.005;  // ... and so many m
     const Place end = line.nearest(fragments_[link.fragment].ends[link.end].position).place;
-    const Place junction = line.nearest(fragments_[link.to.fragment].nodes[link.to.node]).place;
+    const Place junction = line.nearest(link.to.position).place;
     return line.way(end, junction) <= stretch * link.gap + slack;
   }
 

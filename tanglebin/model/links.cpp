@@ -28,11 +28,36 @@ LinkFeatures features_of(const FragmentEnd& first, const FragmentEnd& second, do
   return {1, std::log(gap + shortest), gap, alpha, alpha * alpha, turn};
 }
 
-LinkFeatures features_of(const FragmentEnd& end, const Vector3d& junction) {
-  const Vector3d way = junction - end.position;
+/// Where a fragment may have a junction: at a node of its centre line, or beyond an end.
+struct JunctionPlace {
+  LinkTarget target;
+  double beyond;  // m
+};
+
+LinkFeatures features_of(const FragmentEnd& end, const JunctionPlace& junction) {
+  const Vector3d way = junction.target.position - end.position;
   const double gap = way.norm();
   const double alpha = angle_between(end.outward, way);
-  return {1, std::log(gap + shortest), gap, alpha, alpha * alpha, 0};
+  return {1, std::log(gap + shortest), gap, alpha, alpha * alpha, junction.beyond};
+}
+
+std::vector<JunctionPlace> junction_places(const std::vector<Fragment>& fragments, std::size_t of,
+                                           double radius, double beyond_max) {
+  const Fragment& fragment = fragments[of];
+  std::vector<JunctionPlace> places;
+  for (std::size_t node = 0; node < fragment.nodes.size(); ++node) {
+    places.push_back({{of, node, std::nullopt, fragment.nodes[node]}, 0});
+  }
+  constexpr double step = 0.4;  // radii
+  const int steps = static_cast<int>(beyond_max / step);
+  for (std::size_t i = 0; i < fragment.ends.size(); ++i) {
+    const auto& [node, position, outward] = fragment.ends[i];
+    for (int j = 1; j <= steps; ++j) {
+      const double beyond = j * step * radius;
+      places.push_back({{of, node, i, position + beyond * outward}, beyond});
+    }
+  }
+  return places;
 }
 
 double angle_of(const LinkFeatures& features) {
@@ -83,47 +108,58 @@ double share_seen_empty(const FragmentEnd& first, const FragmentEnd& second, con
   return static_cast<double>(std::min(straight, curved)) / samples;
 }
 
+/// What is known of a piece of a tube.
+struct Piece {
+  double length;  // m
+  int ends;
+};
+
 /// The tubes that links make of fragments.
 class Tubes {
 public:
   Tubes(const std::vector<Fragment>& fragments, const TubeKind& kind, const LinkSettings& settings)
       : sets_(fragments.size()),
         length_max_(kind.length * (1 + settings.length_tolerance)),
-        ends_max_(static_cast<std::size_t>(kind.junctions) + 2) {
+        arm_min_(kind.length * settings.arm_min),
+        ends_(kind.junctions + 2),
+        ends_max_(ends_ + settings.ends_tolerance) {
+    pieces_.reserve(fragments.size());
     for (const Fragment& fragment : fragments) {
-      lengths_.push_back(fragment.length);
-      ends_.push_back(fragment.ends.size());
+      pieces_.push_back({fragment.length, static_cast<int>(fragment.ends.size())});
     }
   }
 
-  // Whether a link leaves the tube open, no longer than known, and with no more ends than its junctions give
-  // it.
+  // Whether a link leaves the tube open, and no longer than known and with no more ends than its junctions
+  // give it. An arm that is missing has a length too.
   bool allow(const Link& link) {
     const std::size_t first = sets_.find_set(link.fragment);
     const std::size_t second = sets_.find_set(link.to.fragment);
-    return first != second && lengths_[first] + link.gap + lengths_[second] <= length_max_ &&
-           ends_[first] + ends_[second] <= ends_max_ + ends_used(link);
+    if (first == second) return false;
+    const Piece piece = joined(pieces_[first], pieces_[second], link);
+    const double missing = arm_min_ * std::max(0, ends_ - piece.ends);
+    return piece.length + missing <= length_max_ && piece.ends <= ends_max_;
   }
 
   void join(const Link& link) {
     const std::size_t first = sets_.find_set(link.fragment);
     const std::size_t second = sets_.find_set(link.to.fragment);
-    const double length = lengths_[first] + link.gap + lengths_[second];
-    const std::size_t ends = ends_[first] + ends_[second] - ends_used(link);
+    const Piece piece = joined(pieces_[first], pieces_[second], link);
     sets_.union_set(first, second);
-    lengths_[sets_.find_set(first)] = length;
-    ends_[sets_.find_set(first)] = ends;
+    pieces_[sets_.find_set(first)] = piece;
   }
 
 private:
-  static std::size_t ends_used(const Link& link) { return link.to.end ? 2 : 1; }
+  static Piece joined(const Piece& first, const Piece& second, const Link& link) {
+    const int ends_used = link.kind == LinkKind::junction ? 1 : 2;
+    return {first.length + link.gap + second.length, first.ends + second.ends - ends_used};
+  }
 
   boost::disjoint_sets_with_storage<> sets_;
   double length_max_;
-  std::size_t ends_max_;
-  // Of the tube that a set stands for.
-  std::vector<double> lengths_;
-  std::vector<std::size_t> ends_;
+  double arm_min_;
+  int ends_;
+  int ends_max_;
+  std::vector<Piece> pieces_;  // the tube that a set stands for
 };
 
 /// What links there may be between some fragments, and how heavy they are.
@@ -233,7 +269,12 @@ class LinkFinder {
 public:
   LinkFinder(const std::vector<Fragment>& fragments, const RangeImage& seen, const TubeKind& kind,
              const LinkSettings& settings)
-      : fragments_(fragments), seen_(seen), kind_(kind), settings_(settings) {}
+      : fragments_(fragments), seen_(seen), kind_(kind), settings_(settings) {
+    if (kind.junctions == 0) return;
+    for (std::size_t i = 0; i < fragments.size(); ++i) {
+      places_.push_back(junction_places(fragments, i, kind.radius, settings.beyond_max));
+    }
+  }
 
   void between_ends(std::size_t first, std::size_t second) {
     const Fragment& f = fragments_[first];
@@ -245,7 +286,7 @@ public:
         take_if_likely({kind_.junctions > 0 ? LinkKind::tree_ends : LinkKind::chain_ends,
                         first,
                         i,
-                        {second, g.ends[j].node, j},
+                        {second, g.ends[j].node, j, g.ends[j].position},
                         gap,
                         features_of(f.ends[i], g.ends[j], kind_.radius)},
                        f.ends[i], g.ends[j]);
@@ -253,27 +294,22 @@ public:
     }
   }
 
-  // To the other fragment's node of the least cost, as the paper's method weighs joins (Section 4).
+  // To the other fragment's place of the least cost, as the paper's method weighs joins (Section 4).
   void to_junction(std::size_t first, std::size_t second) {
     const Fragment& f = fragments_[first];
-    const Fragment& g = fragments_[second];
     const double metres_for_a_radian = settings_.gap_max / settings_.angle_max;
     for (std::size_t i = 0; i < f.ends.size(); ++i) {
-      const auto cost = [&](const Vector3d& node) {
-        const Vector3d way = node - f.ends[i].position;
-        return way.norm() + metres_for_a_radian * angle_between(f.ends[i].outward, way);
+      const FragmentEnd& end = f.ends[i];
+      const auto cost = [&](const JunctionPlace& place) {
+        const Vector3d way = place.target.position - end.position;
+        return way.norm() + place.beyond + metres_for_a_radian * angle_between(end.outward, way);
       };
-      const auto cheapest = std::ranges::min_element(g.nodes, {}, cost);
-      const double gap = (*cheapest - f.ends[i].position).norm();
-      if (!may_span(gap, f, g)) continue;
-      const auto node = static_cast<std::size_t>(cheapest - g.nodes.begin());
-      take_if_likely({LinkKind::junction,
-                      first,
-                      i,
-                      {second, node, std::nullopt},
-                      gap,
-                      features_of(f.ends[i], *cheapest)},
-                     f.ends[i], {node, *cheapest, (f.ends[i].position - *cheapest).normalized()});
+      const JunctionPlace& cheapest = *std::ranges::min_element(places_[second], {}, cost);
+      const Vector3d way_back = end.position - cheapest.target.position;
+      if (!may_span(way_back.norm(), f, fragments_[second])) continue;
+      take_if_likely(
+          {LinkKind::junction, first, i, cheapest.target, way_back.norm(), features_of(end, cheapest)}, end,
+          {cheapest.target.node, cheapest.target.position, way_back.normalized()});
     }
   }
 
@@ -295,6 +331,7 @@ private:
   const RangeImage& seen_;
   const TubeKind& kind_;
   const LinkSettings& settings_;
+  std::vector<std::vector<JunctionPlace>> places_;  // of each fragment
   std::vector<Link> links_;
 };
 
@@ -334,7 +371,8 @@ std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, co
   pairs.reserve(links.size());
   for (const Link& link : links) {
     const std::size_t from = ends_before[link.fragment] + link.end;
-    const std::size_t to = link.to.end ? ends_before[link.to.fragment] + *link.to.end : ends + from;
+    const bool leads_to_junction = link.kind == LinkKind::junction;
+    const std::size_t to = leads_to_junction ? ends + from : ends_before[link.to.fragment] + *link.to.end;
     pairs.push_back({from, to, weight_of(link, settings)});
   }
   const Candidates candidates{fragments, links, pairs, 2 * ends, kind, settings};

@@ -14,7 +14,7 @@ namespace tanglebin {
 /// What a link is judged by. For two ends: with p and q the ends, d1 and d2 the ways out of the first and
 /// into the second, v = q − p, and α = angle(d1, v) + angle(d2, v) as in the paper's Section 4, or angle(d1,
 /// d2) where the ends are nearer than a radius: 1, ln(|v| + 2 mm), |v|, α, α², angle(d1, d2). For an end and
-/// a junction at q: α = angle(d1, v), and 0 for the last.
+/// a junction at q: α = angle(d1, v), and for the last how far q is beyond the end of its fragment, m.
 inline constexpr std::size_t link_features = 6;
 using LinkFeatures = std::array<double, link_features>;
 
@@ -38,13 +38,16 @@ struct LinkWeights {
 inline constexpr LinkWeights learned_weights = {
     .chain_ends = {-21.1166, -7.5650, 25.2700, -3.4258, -2.1145, 3.8178},
     .tree_ends = {-3.1158, -2.1195, -17.9948, -4.4544, -0.0040, 2.9285},
-    .junction = {-5.3791, -2.5145, -11.2774, -5.9295, 1.4830, 0.0000},
+    .junction = {1.0977, -0.6497, -36.5817, -6.2671, 1.6519, -21.0763},
 };
 
 struct LinkSettings {
   double gap_max = 0.36;           ///< m, between two ends
   double angle_max = 3.2;          ///< rad, α
   double length_tolerance = 0.03;  ///< of the known length, by which a tube may be too long
+  int ends_tolerance = 1;          ///< ends that a tree may have too many: where noise made a branch
+  double arm_min = 0.1;            ///< of the known length, that an arm of a tree has at least
+  double beyond_max = 3.2;         ///< radii, from the end of a fragment to a junction that is hidden
   double seen_empty_max = 0.25;    ///< share of the way between two ends that may be seen to be empty
   // Added to the log odds, since a fragment is more often a part of a tube than one by itself.
   double chain_prior = 9.0;
@@ -55,12 +58,15 @@ struct LinkSettings {
 /// Where a link leads to.
 struct LinkTarget {
   std::size_t fragment;
-  std::size_t node;                ///< index into Fragment::nodes
-  std::optional<std::size_t> end;  ///< index into Fragment::ends; none for a junction
+  std::size_t node;  ///< index into Fragment::nodes
+  /// Index into Fragment::ends: the end that has this node, or beyond which the junction is; none for a
+  /// junction at the node.
+  std::optional<std::size_t> end;
+  Eigen::Vector3d position;  ///< m, of the end or the junction
 };
 
 /// An end of a fragment, and what may be next on its tube: an end of another fragment, or a junction in the
-/// middle of one.
+/// middle of one or, hidden, beyond its end.
 struct Link {
   LinkKind kind;
   std::size_t fragment;
@@ -77,8 +83,9 @@ std::vector<Link> find_links(const std::vector<Fragment>& fragments, const Range
                              const TubeKind& kind, const LinkSettings& settings);
 
 /// The links that together are the likeliest, with which every tube is open, no longer than known, and has no
-/// more junctions: for chains a matching of greatest weight between the ends, for trees the heaviest links
-/// one after the other; then links are exchanged as long as the sum of the weights grows. Indices, ascending.
+/// more ends than there can be: for chains a matching of greatest weight between the ends, for trees the
+/// heaviest links one after the other; then links are exchanged as long as the sum of the weights grows.
+/// Indices, ascending.
 std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
                                       const TubeKind& kind, const LinkSettings& settings);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -60,16 +61,34 @@ FragmentNodes add_fragment(Line& line, const Fragment& fragment) {
   return {offset, std::move(end_nodes)};
 }
 
+// The node of the line that a link leads to. A junction beyond an end is a new one, and from then on that
+// end.
+std::size_t target_node(Line& line, FragmentNodes& fragment, const Link& link) {
+  if (!link.to.end) return fragment.first + link.to.node;
+  std::size_t& end = fragment.ends[*link.to.end];
+  if (link.kind == LinkKind::junction) {
+    line.edges.push_back({end, line.nodes.size()});
+    end = line.nodes.size();
+    line.nodes.push_back(link.to.position);
+  }
+  return end;
+}
+
 Line assemble(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
               const std::vector<Link>& links, const std::vector<std::size_t>& chosen) {
   Line line;
   std::map<std::size_t, FragmentNodes> added;
   for (const std::size_t member : members) added[member] = add_fragment(line, fragments[member]);
-  for (const std::size_t i : chosen) {
-    const auto& [kind, fragment, end, to, gap, features] = links[i];
-    if (!added.contains(fragment)) continue;
-    const FragmentNodes& other = added[to.fragment];
-    line.edges.push_back({added[fragment].ends[end], to.end ? other.ends[*to.end] : other.first + to.node});
+  std::vector<std::size_t> of_members;
+  std::ranges::copy_if(chosen, std::back_inserter(of_members),
+                       [&](std::size_t i) { return added.contains(links[i].fragment); });
+  // Junctions first: a link to an end that has one beyond it starts from there.
+  std::ranges::stable_partition(of_members,
+                                [&](std::size_t i) { return links[i].kind == LinkKind::junction; });
+  for (const std::size_t i : of_members) {
+    const Link& link = links[i];
+    const std::size_t target = target_node(line, added[link.to.fragment], link);
+    line.edges.push_back({added[link.fragment].ends[link.end], target});
   }
   return line;
 }

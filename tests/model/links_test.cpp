@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -125,6 +126,31 @@ TEST(Links, CloseNoTube) {
   EXPECT_THAT(chosen_of(square, kind), SizeIs(3));
 }
 
+// Three arms whose axes meet 3 cm before each of them begins.
+TEST(Links, OfTreesMeetWhereTheJunctionIsHidden) {
+  std::vector<Fragment> arms;
+  for (const double angle : {0.0, 2.1, 4.2}) {
+    const Vector3d way(std::cos(angle), std::sin(angle), 0);
+    arms.push_back(fragment(Vector3d(0, 0, 0.05) + 0.03 * way, Vector3d(0, 0, 0.05) + 0.13 * way));
+  }
+  const std::vector<Link> chosen = chosen_of(arms, {.length = 0.5, .junctions = 1});
+  ASSERT_THAT(chosen, SizeIs(2));
+  const auto is_to_junction = [](const Link& link) { return link.kind == LinkKind::junction; };
+  const auto to_junction = std::ranges::find_if(chosen, is_to_junction);
+  ASSERT_NE(to_junction, chosen.end());
+  EXPECT_EQ(to_junction->to.end, 0U);
+  EXPECT_LT((to_junction->to.position - Vector3d(0, 0, 0.05)).norm(), 0.01);
+}
+
+// Two pieces in a row. With the arms that were not seen they would be too long.
+TEST(Links, OfTreesLeaveRoomForArmsThatAreHidden) {
+  const std::vector<Fragment> row = {fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
+                                     fragment({0, 0, 0.05}, {0.15, 0, 0.05})};
+  EXPECT_THAT(chosen_of(row, {.length = 0.36, .junctions = 0}), SizeIs(1));
+  EXPECT_THAT(chosen_of(row, {.length = 0.36, .junctions = 2}), IsEmpty());
+  EXPECT_THAT(chosen_of(row, {.length = 0.44, .junctions = 2}), SizeIs(1));
+}
+
 TEST(Links, OfTreesLeadToJunctionsToo) {
   TubeKind kind;
   kind.junctions = 1;
@@ -142,9 +168,9 @@ TEST(Links, OfTreesLeadToJunctionsToo) {
 }
 
 TEST(LinkedFragments, AreGroupedByTheChosenLinks) {
-  const std::vector<Link> links = {{LinkKind::chain_ends, 0, 0, {2, 0, 0}, 0, {}},
-                                   {LinkKind::chain_ends, 1, 0, {3, 0, 0}, 0, {}},
-                                   {LinkKind::chain_ends, 2, 0, {3, 0, 0}, 0, {}}};
+  const std::vector<Link> links = {{LinkKind::chain_ends, 0, 0, {2, 0, 0, {0, 0, 0}}, 0, {}},
+                                   {LinkKind::chain_ends, 1, 0, {3, 0, 0, {0, 0, 0}}, 0, {}},
+                                   {LinkKind::chain_ends, 2, 0, {3, 0, 0, {0, 0, 0}}, 0, {}}};
   EXPECT_THAT(linked_fragments(4, links, {0, 1}), ElementsAre(ElementsAre(0, 2), ElementsAre(1, 3)));
   EXPECT_THAT(linked_fragments(4, links, {}), SizeIs(4));
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -71,17 +72,44 @@ TEST(FitTube, BridgesAJoin) {
   const Piece second = piece_along({{0.05, 0, 0.05}, {0.2, 0, 0.05}}, first.points.size(), Vector3d::Zero());
   std::vector<Vector3f> points = std::move(first.points);
   points.insert(points.end(), second.points.begin(), second.points.end());
-  const std::vector<Link> links = {{.kind = LinkKind::chain_ends,
-                                    .fragment = 0,
-                                    .end = 1,
-                                    .to = {1, second.fragment.ends[0].node, 0},
-                                    .gap = 0.1,
-                                    .features = {}}};
+  const std::vector<Link> links = {
+      {.kind = LinkKind::chain_ends,
+       .fragment = 0,
+       .end = 1,
+       .to = {1, second.fragment.ends[0].node, 0, second.fragment.ends[0].position},
+       .gap = 0.1,
+       .features = {}}};
   const Tube tube = fit_tube({first.fragment, second.fragment}, {0, 1}, links, {0}, points, radius, {});
   EXPECT_NEAR(total_length(tube), 0.4, 1e-3);
   EXPECT_EQ(tube.nodes.size(), tube.edges.size() + 1);
   for (const Node& node : tube.nodes)
     EXPECT_LT((node.position - Vector3d(node.position.x(), 0, 0.05)).norm(), 1e-4);
+}
+
+// Three arms that meet 4 cm before each of them begins.
+TEST(FitTube, PutsAHiddenJunctionWhereItsLinkLeads) {
+  const Vector3d junction(0, 0, 0.05);
+  std::vector<Fragment> arms;
+  std::vector<Vector3f> points;
+  for (const double angle : {0.0, 2.0, 4.0}) {
+    const Vector3d way(std::cos(angle), std::sin(angle), 0);
+    Piece arm = piece_along({junction + 0.04 * way, junction + 0.2 * way}, points.size(), Vector3d::Zero());
+    arms.push_back(std::move(arm.fragment));
+    points.insert(points.end(), arm.points.begin(), arm.points.end());
+  }
+  const FragmentEnd& end = arms[1].ends[0];
+  const std::vector<Link> links = {{LinkKind::tree_ends, 0, 0, {1, end.node, 0, end.position}, 0.07, {}},
+                                   {LinkKind::junction, 2, 0, {1, end.node, 0, junction}, 0.04, {}}};
+  const Tube tube = fit_tube(arms, {0, 1, 2}, links, {0, 1}, points, radius, {});
+  const auto edges_at = [&](std::size_t node) {
+    return std::ranges::count_if(tube.edges, [&](const Edge& e) { return e.from == node || e.to == node; });
+  };
+  std::vector<Vector3d> junctions;
+  for (std::size_t node = 0; node < tube.nodes.size(); ++node) {
+    if (edges_at(node) == 3) junctions.push_back(tube.nodes[node].position);
+  }
+  ASSERT_EQ(junctions.size(), 1U);
+  EXPECT_LT((junctions[0] - junction).norm(), 1e-3);
 }
 
 TEST(FitTube, DoesNotCountPointsThatAreFarFromTheSurface) {
