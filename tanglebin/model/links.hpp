@@ -51,8 +51,8 @@ struct LinkSettings {
   double seen_empty_max = 0.25;    ///< share of the way between two ends that may be seen to be empty
   // Added to the log odds, since a fragment is more often a part of a tube than one by itself.
   double chain_prior = 9.0;
-  double tree_prior = 6.0;
-  double junction_prior = 4.0;
+  double tree_prior = 7.0;
+  double junction_prior = 5.0;
 };
 
 /// Where a link leads to.

@@ -531,7 +531,7 @@ TEST(Recipe, OnesInTheRepositoryAreWhatTheySay) {
   };
   EXPECT_EQ(cases(read_recipe(file("set-a.toml"))).size(), 320U);
   EXPECT_EQ(cases(read_recipe(file("set-b.toml"))).size(), 320U);
-  EXPECT_EQ(cases(read_recipe(file("set-c.toml"))).size(), 100U);
+  EXPECT_EQ(cases(read_recipe(file("set-c.toml"))).size(), 250U);
   EXPECT_EQ(cases(read_recipe(file("mixed.toml"))).size(), 60U);
   EXPECT_EQ(cases(read_recipe(file("crowded.toml"))).size(), 50U);
   const Recipe paper = read_recipe(file("paper.toml"));
