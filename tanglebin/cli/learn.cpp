@@ -19,33 +19,37 @@ struct LearnArguments {
   bool json = false;
 };
 
-std::vector<LinkExample> examples_of(const Dataset& dataset) {
-  std::vector<LinkExample> examples;
+std::vector<EndExample> examples_of(const Dataset& dataset) {
+  std::vector<EndExample> ends;
   for (const CaseId& id : cases(dataset)) {
-    const std::vector<LinkExample> of_case = link_examples(dataset, id);
-    examples.insert(examples.end(), of_case.begin(), of_case.end());
+    const std::vector<EndExample> of_case = end_examples(dataset, id);
+    ends.insert(ends.end(), of_case.begin(), of_case.end());
   }
-  return examples;
+  return ends;
 }
 
-/// Examples of one kind.
+/// Links of one kind.
 struct Count {
   int links = 0;
   int true_links = 0;
 };
 
-Count count(const std::vector<LinkExample>& examples, LinkKind kind) {
+Count count(const std::vector<EndExample>& ends, LinkKind kind) {
   Count result;
-  for (const LinkExample& example : examples) {
-    if (example.kind != kind) continue;
-    ++result.links;
-    if (example.is_true) ++result.true_links;
+  for (const EndExample& end : ends) {
+    for (const LinkExample& link : end) {
+      if (link.kind != kind) continue;
+      ++result.links;
+      if (link.is_true) ++result.true_links;
+    }
   }
-  return result;
+  // A link between two ends is an example at each of them.
+  const int times = kind == LinkKind::junction ? 1 : 2;
+  return {result.links / times, result.true_links / times};
 }
 
 void learn(const LearnArguments& arguments) {
-  const std::vector<LinkExample> examples = examples_of(read_dataset(arguments.dataset));
+  const std::vector<EndExample> examples = examples_of(read_dataset(arguments.dataset));
   const LinkWeights weights = learn_weights(examples);
   nlohmann::ordered_json json;
   for (const auto& [name, kind] : {std::pair{"chain_ends", LinkKind::chain_ends},

@@ -16,7 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 using FeatureVector = Eigen::Matrix<double, link_features, 1>;
-using FeatureMatrix = Eigen::Matrix<double, link_features, link_features>;
 
 /// Where the fragments of a model are on the true tubes.
 class TrueLinks {
@@ -83,50 +82,101 @@ private:
   std::vector<Place> middles_;       // of each fragment on its tube; of one on none, nothing
 };
 
-LinkFeatures logistic_regression(const std::vector<LinkExample>& examples, LinkKind kind) {
-  constexpr double ridge = 1e-3;
-  constexpr double small_step = 1e-9;
-  constexpr int steps_max = 100;
-  FeatureVector weights = FeatureVector::Zero();
-  for (int i = 0; i < steps_max; ++i) {
-    FeatureVector gradient = ridge * weights;
-    FeatureMatrix curvature = ridge * FeatureMatrix::Identity();
-    for (const LinkExample& example : examples) {
-      if (example.kind != kind) continue;
-      const auto features = Eigen::Map<const FeatureVector>(example.features.data());
-      const double likelihood = 1 / (1 + std::exp(-weights.dot(features)));
-      gradient += (likelihood - (example.is_true ? 1 : 0)) * features;
-      curvature += likelihood * (1 - likelihood) * features * features.transpose();
-    }
-    const FeatureVector step = curvature.ldlt().solve(gradient);
-    weights -= step;
-    if (step.cwiseAbs().maxCoeff() < small_step) break;
-  }
-  LinkFeatures result;
-  std::ranges::copy(weights, result.begin());
-  return result;
+// The weights of all kinds, one after the other.
+constexpr std::size_t parameters = link_kinds.size() * link_features;
+using Vector = Eigen::Matrix<double, parameters, 1>;
+using Matrix = Eigen::Matrix<double, parameters, parameters>;
+
+Eigen::Index first_of(LinkKind kind) {
+  return static_cast<Eigen::Index>(kind) * static_cast<Eigen::Index>(link_features);
 }
+
+auto of_kind(auto& vector, LinkKind kind) {
+  return vector.template segment<link_features>(first_of(kind));
+}
+
+Eigen::Map<const FeatureVector> features_of(const LinkExample& link) {
+  return Eigen::Map<const FeatureVector>(link.features.data());
+}
+
+/// The log likelihood's slope, and its curvature without the share of the choice between several true links,
+/// which would make it indefinite.
+struct Likelihood {
+  Vector slope = Vector::Zero();
+  Matrix curvature = Matrix::Zero();
+
+  void add(const EndExample& end, const Vector& weights) {
+    std::vector<double> odds;  // against no link
+    double all = 1;
+    double of_true = 0;
+    for (const LinkExample& link : end) {
+      odds.push_back(std::exp(of_kind(weights, link.kind).dot(features_of(link))));
+      all += odds.back();
+      if (link.is_true) of_true += odds.back();
+    }
+    Vector mean = Vector::Zero();
+    for (std::size_t i = 0; i < end.size(); ++i) {
+      const FeatureVector features = features_of(end[i]);
+      const double probability = odds[i] / all;
+      of_kind(mean, end[i].kind) += probability * features;
+      const Eigen::Index first = first_of(end[i].kind);
+      curvature.block<link_features, link_features>(first, first) +=
+          probability * features * features.transpose();
+      if (end[i].is_true) of_kind(slope, end[i].kind) += odds[i] / of_true * features;
+    }
+    slope -= mean;
+    curvature -= mean * mean.transpose();
+  }
+};
 
 }  // namespace
 
-std::vector<LinkExample> link_examples(const Dataset& dataset, const CaseId& id) {
+std::vector<EndExample> end_examples(const Dataset& dataset, const CaseId& id) {
   const CaseData data = read_case(dataset, id);
   AxisSettings settings;
   constexpr double any = 1e9;
   settings.link.chain_prior = settings.link.tree_prior = settings.link.junction_prior = any;
   const AxisModel found = model_by_axes(data.cloud, known_scene(recipe_of(dataset, id), id), 1, 0, settings);
-  std::vector<LinkExample> examples;
+  std::vector<EndExample> examples;
   for (const AxisSteps& kind : found.kinds) {
     const TrueLinks truth(data, found.model.filtered, kind.fragments);
-    for (const Link& link : kind.links) examples.push_back({link.kind, link.features, truth.has(link)});
+    std::vector<std::size_t> first_end;
+    for (const Fragment& fragment : kind.fragments) {
+      first_end.push_back(examples.size());
+      examples.resize(examples.size() + fragment.ends.size());
+    }
+    for (const Link& link : kind.links) {
+      const LinkExample example{link.kind, link.features, truth.has(link)};
+      examples[first_end[link.fragment] + link.end].push_back(example);
+      if (link.kind != LinkKind::junction)
+        examples[first_end[link.to.fragment] + *link.to.end].push_back(example);
+    }
   }
   return examples;
 }
 
-LinkWeights learn_weights(const std::vector<LinkExample>& examples) {
-  return {.chain_ends = logistic_regression(examples, LinkKind::chain_ends),
-          .tree_ends = logistic_regression(examples, LinkKind::tree_ends),
-          .junction = logistic_regression(examples, LinkKind::junction)};
+LinkWeights learn_weights(const std::vector<EndExample>& ends) {
+  constexpr double ridge = 1e-3;
+  constexpr double small_step = 1e-9;
+  constexpr int steps_max = 1000;
+  Vector weights = Vector::Zero();
+  for (int i = 0; i < steps_max; ++i) {
+    Likelihood likelihood;
+    likelihood.slope = -ridge * weights;
+    likelihood.curvature = ridge * Matrix::Identity();
+    for (const EndExample& end : ends) likelihood.add(end, weights);
+    const Vector step = likelihood.curvature.ldlt().solve(likelihood.slope);
+    weights += step;
+    if (step.cwiseAbs().maxCoeff() < small_step) break;
+  }
+  const auto learned = [&](LinkKind kind) {
+    LinkFeatures result;
+    std::ranges::copy(of_kind(weights, kind), result.begin());
+    return result;
+  };
+  return {.chain_ends = learned(LinkKind::chain_ends),
+          .tree_ends = learned(LinkKind::tree_ends),
+          .junction = learned(LinkKind::junction)};
 }
 
 }  // namespace tanglebin

@@ -1,6 +1,7 @@
 #include "tanglebin/model/links.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <functional>
@@ -24,8 +25,8 @@ LinkFeatures features_of(const FragmentEnd& first, const FragmentEnd& second, do
   const Vector3d inward = -second.outward;
   const double gap = way.norm();
   const double turn = angle_between(first.outward, inward);
-  const double alpha = gap < radius ? turn : angle_between(first.outward, way) + angle_between(inward, way);
-  return {1, std::log(gap + shortest), gap, alpha, alpha * alpha, turn};
+  const double angle = gap < radius ? turn : angle_between(first.outward, way) + angle_between(inward, way);
+  return {1, std::log(gap + shortest), gap, angle, angle * angle, turn, 0, 0};
 }
 
 /// Where a fragment may have a junction: at a node of its centre line, or beyond an end.
@@ -37,8 +38,8 @@ struct JunctionPlace {
 LinkFeatures features_of(const FragmentEnd& end, const JunctionPlace& junction) {
   const Vector3d way = junction.target.position - end.position;
   const double gap = way.norm();
-  const double alpha = angle_between(end.outward, way);
-  return {1, std::log(gap + shortest), gap, alpha, alpha * alpha, junction.beyond};
+  const double angle = angle_between(end.outward, way);
+  return {1, std::log(gap + shortest), gap, angle, angle * angle, junction.beyond, 0, 0};
 }
 
 std::vector<JunctionPlace> junction_places(const std::vector<Fragment>& fragments, std::size_t of,
@@ -60,10 +61,10 @@ std::vector<JunctionPlace> junction_places(const std::vector<Fragment>& fragment
   return places;
 }
 
-double angle_of(const LinkFeatures& features) {
-  constexpr std::size_t alpha = 3;
-  return features[alpha];
-}
+// Places among the features.
+constexpr std::size_t alpha = 3;
+constexpr std::size_t seen_empty = 6;
+constexpr std::size_t openness = 7;
 
 double prior(LinkKind kind, const LinkSettings& settings) {
   switch (kind) {
@@ -79,8 +80,9 @@ double prior(LinkKind kind, const LinkSettings& settings) {
 
 double weight_of(const Link& link, const LinkSettings& settings) {
   const LinkFeatures& weights = learned_weights.of(link.kind);
-  return std::inner_product(weights.begin(), weights.end(), link.features.begin(),
-                            prior(link.kind, settings));
+  const int ends = link.kind == LinkKind::junction ? 1 : 2;
+  return prior(link.kind, settings) +
+         ends * std::inner_product(weights.begin(), weights.end(), link.features.begin(), 0.0);
 }
 
 // The cubic Hermite curve from one end to the other, at t in [0, 1].
@@ -113,6 +115,16 @@ struct Piece {
   double length;  // m
   int ends;
 };
+
+// 1 where a fragment ends for all to see, 0 where what covers it goes on.
+double openness_of(const FragmentEnd& end, const RangeImage& seen, double radius) {
+  constexpr std::array distances = {1.5, 2.0, 2.5, 3.0};  // radii
+  const auto is_empty = [&](double distance) {
+    return seen.shows_empty(end.position + distance * radius * end.outward, radius);
+  };
+  return static_cast<double>(std::ranges::count_if(distances, is_empty)) /
+         static_cast<double>(distances.size());
+}
 
 /// The tubes that links make of fragments.
 class Tubes {
@@ -270,6 +282,10 @@ public:
   LinkFinder(const std::vector<Fragment>& fragments, const RangeImage& seen, const TubeKind& kind,
              const LinkSettings& settings)
       : fragments_(fragments), seen_(seen), kind_(kind), settings_(settings) {
+    for (const Fragment& fragment : fragments) {
+      std::vector<double>& of_ends = openness_.emplace_back();
+      for (const FragmentEnd& end : fragment.ends) of_ends.push_back(openness_of(end, seen, kind.radius));
+    }
     if (kind.junctions == 0) return;
     for (std::size_t i = 0; i < fragments.size(); ++i) {
       places_.push_back(junction_places(fragments, i, kind.radius, settings.beyond_max));
@@ -321,16 +337,27 @@ private:
            first.length + gap + second.length <= kind_.length * (1 + settings_.length_tolerance);
   }
 
-  void take_if_likely(const Link& link, const FragmentEnd& from, const FragmentEnd& to) {
-    if (angle_of(link.features) > settings_.angle_max || weight_of(link, settings_) <= 0) return;
-    if (share_seen_empty(from, to, seen_, kind_.radius) > settings_.seen_empty_max) return;
+  void take_if_likely(Link link, const FragmentEnd& from, const FragmentEnd& to) {
+    if (link.features[alpha] > settings_.angle_max) return;
+    link.features[openness] = mean_openness(link);
+    // What was seen to be empty makes it less likely, and takes the most time to know.
+    if (weight_of(link, settings_) <= 0) return;
+    link.features[seen_empty] = share_seen_empty(from, to, seen_, kind_.radius);
+    if (link.features[seen_empty] > settings_.seen_empty_max || weight_of(link, settings_) <= 0) return;
     links_.push_back(link);
+  }
+
+  double mean_openness(const Link& link) const {
+    const double of_first = openness_[link.fragment][link.end];
+    if (link.kind == LinkKind::junction) return of_first;
+    return (of_first + openness_[link.to.fragment][*link.to.end]) / 2;
   }
 
   const std::vector<Fragment>& fragments_;
   const RangeImage& seen_;
   const TubeKind& kind_;
   const LinkSettings& settings_;
+  std::vector<std::vector<double>> openness_;       // of each fragment's ends
   std::vector<std::vector<JunctionPlace>> places_;  // of each fragment
   std::vector<Link> links_;
 };

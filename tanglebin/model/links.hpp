@@ -13,9 +13,12 @@ namespace tanglebin {
 
 /// What a link is judged by. For two ends: with p and q the ends, d1 and d2 the ways out of the first and
 /// into the second, v = q − p, and α = angle(d1, v) + angle(d2, v) as in the paper's Section 4, or angle(d1,
-/// d2) where the ends are nearer than a radius: 1, ln(|v| + 2 mm), |v|, α, α², angle(d1, d2). For an end and
-/// a junction at q: α = angle(d1, v), and for the last how far q is beyond the end of its fragment, m.
-inline constexpr std::size_t link_features = 6;
+/// d2) where the ends are nearer than a radius: 1, ln(|v| + 2 mm), |v|, α, α², angle(d1, d2), the share of v
+/// on which the sensor saw past a tube, and the ends' mean openness: the share of the way straight on beyond
+/// an end, from 1.5 to 3 radii, on which the sensor saw past a tube. For an end and a junction at q: α =
+/// angle(d1, v), instead of angle(d1, d2) how far q is beyond the end of its fragment, m, and the openness of
+/// the one end.
+inline constexpr std::size_t link_features = 8;
 using LinkFeatures = std::array<double, link_features>;
 
 /// What a link may be.
@@ -24,8 +27,10 @@ enum class LinkKind {
   tree_ends,   ///< between two ends of trees
   junction,    ///< from an end to a junction
 };
+inline constexpr std::array link_kinds = {LinkKind::chain_ends, LinkKind::tree_ends, LinkKind::junction};
 
-/// The logarithm of the odds of a link is the sum of its features times these.
+/// The logarithm of the odds of a link against none, at each of its ends, is the sum of its features times
+/// these.
 struct LinkWeights {
   LinkFeatures chain_ends{};
   LinkFeatures tree_ends{};
@@ -34,11 +39,11 @@ struct LinkWeights {
   const LinkFeatures& of(LinkKind kind) const;
 };
 
-/// Learned by logistic regression: what `tanglebin learn` gives for recipes/learning.toml, to four decimals.
+/// What `tanglebin learn` gives for recipes/learning.toml, to four decimals.
 inline constexpr LinkWeights learned_weights = {
-    .chain_ends = {-21.1166, -7.5650, 25.2700, -3.4258, -2.1145, 3.8178},
-    .tree_ends = {-3.1158, -2.1195, -17.9948, -4.4544, -0.0040, 2.9285},
-    .junction = {1.0977, -0.6497, -36.5817, -6.2671, 1.6519, -21.0763},
+    .chain_ends = {-8.5090, -6.0014, 11.1989, -9.0465, -0.2919, 3.4902, -34.5645, -2.2967},
+    .tree_ends = {3.9937, -1.4461, -26.6504, -8.4004, 0.8899, 2.8816, -12.2936, -1.1235},
+    .junction = {4.3452, 0.1754, -35.4446, -9.0188, 2.5482, -61.5782, -25.0403, 0.3937},
 };
 
 struct LinkSettings {
@@ -50,9 +55,9 @@ struct LinkSettings {
   double beyond_max = 3.2;         ///< radii, from the end of a fragment to a junction that is hidden
   double seen_empty_max = 0.25;    ///< share of the way between two ends that may be seen to be empty
   // Added to the log odds, since a fragment is more often a part of a tube than one by itself.
-  double chain_prior = 9.0;
-  double tree_prior = 7.0;
-  double junction_prior = 5.0;
+  double chain_prior = 24.0;
+  double tree_prior = 10.0;
+  double junction_prior = 8.0;
 };
 
 /// Where a link leads to.

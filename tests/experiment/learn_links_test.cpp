@@ -12,31 +12,38 @@
 namespace tanglebin {
 namespace {
 
-// Examples whose log odds are known.
-TEST(LearnWeights, FindsTheWeightsThatExamplesWereDrawnBy) {
-  const LinkFeatures weights = {1, -2, 0.5, -1, 0.25, 1.5};
+// Ends with three links each, of which they chose one or none with known odds.
+TEST(LearnWeights, FindsTheWeightsThatEndsChoseBy) {
+  const LinkFeatures weights = {1, -2, 0.5, -1, 0.25, 1.5, -0.5, 0.75};
   Rng rng(1);
-  std::vector<LinkExample> examples;
-  constexpr int count = 200000;
-  for (int i = 0; i < count; ++i) {
-    LinkFeatures features{1};
-    for (std::size_t j = 1; j < features.size(); ++j) features[j] = uniform_real(rng, -2, 2);
-    const double odds = std::exp(std::inner_product(weights.begin(), weights.end(), features.begin(), 0.0));
-    examples.push_back({LinkKind::chain_ends, features, uniform_real(rng, 0, 1) < odds / (1 + odds)});
+  std::vector<EndExample> ends(100000);
+  for (EndExample& end : ends) {
+    std::vector<double> odds;
+    for (int i = 0; i < 3; ++i) {
+      LinkFeatures features{1};
+      for (std::size_t j = 1; j < features.size(); ++j) features[j] = uniform_real(rng, -2, 2);
+      odds.push_back(std::exp(std::inner_product(weights.begin(), weights.end(), features.begin(), 0.0)));
+      end.push_back({LinkKind::chain_ends, features, false});
+    }
+    double left = uniform_real(rng, 0, 1 + std::accumulate(odds.begin(), odds.end(), 0.0));
+    for (std::size_t i = 0; i < end.size() && left > 0; ++i) {
+      end[i].is_true = left < odds[i];
+      left -= odds[i];
+    }
   }
-  const LinkWeights learned = learn_weights(examples);
+  const LinkWeights learned = learn_weights(ends);
   for (std::size_t j = 0; j < weights.size(); ++j) EXPECT_NEAR(learned.chain_ends[j], weights[j], 0.05) << j;
   EXPECT_EQ(learned.tree_ends, LinkFeatures{});
   EXPECT_EQ(learned.junction, LinkFeatures{});
 }
 
-TEST(LinkExamples, AreTrueWhereATubeGoesOnAndFalseWhereItDoesNot) {
+TEST(EndExamples, AreTrueWhereATubeGoesOnAndFalseWhereItDoesNot) {
   const test::SmallDataset small;
   const Dataset dataset = small.read();
   std::vector<LinkExample> examples;
   for (const CaseId& id : cases(dataset)) {
-    const std::vector<LinkExample> of_case = link_examples(dataset, id);
-    examples.insert(examples.end(), of_case.begin(), of_case.end());
+    for (const EndExample& end : end_examples(dataset, id))
+      examples.insert(examples.end(), end.begin(), end.end());
   }
   const auto gap = [](const LinkExample& example) { return example.features[2]; };
   const auto mean_gap = [&](bool is_true) {

@@ -52,10 +52,9 @@ TEST(Links, JoinEndsThatFaceEachOtherAndSayHowFarApartTheyAre) {
   EXPECT_EQ(link.to.fragment, 1U);
   EXPECT_EQ(link.to.end, 0U);
   EXPECT_NEAR(link.gap, 0.05, 1e-12);
-  // 1, ln(gap + 2 mm), gap, and no angles.
-  EXPECT_THAT(link.features, ElementsAre(1, testing::DoubleNear(std::log(0.052), 1e-12),
-                                         testing::DoubleNear(0.05, 1e-12), testing::DoubleNear(0, 1e-6),
-                                         testing::DoubleNear(0, 1e-6), testing::DoubleNear(0, 1e-6)));
+  // 1, ln(gap + 2 mm), gap, no angles, and nothing that was seen.
+  const LinkFeatures expected = {1, std::log(0.052), 0.05, 0, 0, 0, 0, 0};
+  EXPECT_THAT(link.features, testing::Pointwise(testing::DoubleNear(1e-6), expected));
 }
 
 // Two of the three are a tube, but not all of them.
@@ -77,6 +76,19 @@ TEST(Links, AreNotWhereTheSensorSawThatThereIsNothing) {
   EXPECT_THAT(links_of(fragments, {}), testing::Not(IsEmpty()));
   // The empty bin: the sensor saw its floor between the two.
   EXPECT_THAT(links_of(fragments, {}, test::scanned({})), IsEmpty());
+}
+
+// A tube lies across the gap. Straight on from both ends the sensor saw first that tube, then the floor.
+TEST(Links, KnowHowFarTheirEndsAreOpen) {
+  const Tube across = test::chain(1, test::radius, {{0, -0.2, 0.1}, {0, 0.2, 0.1}});
+  const std::vector<Link> links =
+      links_of({fragment({-0.2, 0, 0.05}, {-0.014, 0, 0.05}), fragment({0.014, 0, 0.05}, {0.2, 0, 0.05})}, {},
+               test::scanned({across}));
+  const auto is_across = [](const Link& link) { return link.end == 1 && link.to.end == 0; };
+  const auto link = std::ranges::find_if(links, is_across);
+  ASSERT_NE(link, links.end());
+  EXPECT_EQ(link->features[6], 0);
+  EXPECT_EQ(link->features[7], 0.5);
 }
 
 TEST(Links, MakeNoTubeLongerThanItIs) {
