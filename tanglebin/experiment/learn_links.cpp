@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include "tanglebin/experiment/run.hpp"
 #include "tanglebin/model/axis_method.hpp"
@@ -99,6 +101,16 @@ Eigen::Map<const FeatureVector> features_of(const LinkExample& link) {
   return Eigen::Map<const FeatureVector>(link.features.data());
 }
 
+// What is chosen with these log odds, how likely each of it is: less the greatest, so that none overflows.
+std::vector<double> probabilities(std::vector<double> log_odds) {
+  if (log_odds.empty()) return {};
+  const double greatest = std::ranges::max(log_odds);
+  for (double& value : log_odds) value = std::exp(value - greatest);
+  const double sum = std::accumulate(log_odds.begin(), log_odds.end(), 0.0);
+  for (double& value : log_odds) value /= sum;
+  return log_odds;
+}
+
 /// The log likelihood's slope, and its curvature without the share of the choice between several true links,
 /// which would make it indefinite.
 struct Likelihood {
@@ -106,23 +118,24 @@ struct Likelihood {
   Matrix curvature = Matrix::Zero();
 
   void add(const EndExample& end, const Vector& weights) {
-    std::vector<double> odds;  // against no link
-    double all = 1;
-    double of_true = 0;
+    std::vector<double> log_odds = {0};  // of no link, and of each
+    std::vector<double> log_odds_of_true;
     for (const LinkExample& link : end) {
-      odds.push_back(std::exp(of_kind(weights, link.kind).dot(features_of(link))));
-      all += odds.back();
-      if (link.is_true) of_true += odds.back();
+      log_odds.push_back(of_kind(weights, link.kind).dot(features_of(link)));
+      if (link.is_true) log_odds_of_true.push_back(log_odds.back());
     }
+    const std::vector<double> of_all = probabilities(std::move(log_odds));
+    const std::vector<double> of_true = probabilities(std::move(log_odds_of_true));
+    auto next_true = of_true.begin();
     Vector mean = Vector::Zero();
     for (std::size_t i = 0; i < end.size(); ++i) {
       const FeatureVector features = features_of(end[i]);
-      const double probability = odds[i] / all;
+      const double probability = of_all[i + 1];
       of_kind(mean, end[i].kind) += probability * features;
       const Eigen::Index first = first_of(end[i].kind);
       curvature.block<link_features, link_features>(first, first) +=
           probability * features * features.transpose();
-      if (end[i].is_true) of_kind(slope, end[i].kind) += odds[i] / of_true * features;
+      if (end[i].is_true) of_kind(slope, end[i].kind) += *next_true++ * features;
     }
     slope -= mean;
     curvature -= mean * mean.transpose();

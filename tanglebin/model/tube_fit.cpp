@@ -83,8 +83,8 @@ Line assemble(const std::vector<Fragment>& fragments, const std::vector<std::siz
   std::ranges::copy_if(chosen, std::back_inserter(of_members),
                        [&](std::size_t i) { return added.contains(links[i].fragment); });
   // Junctions first: a link to an end that has one beyond it starts from there.
-  std::ranges::stable_partition(of_members,
-                                [&](std::size_t i) { return links[i].kind == LinkKind::junction; });
+  std::stable_partition(of_members.begin(), of_members.end(),
+                        [&](std::size_t i) { return links[i].kind == LinkKind::junction; });
   for (const std::size_t i : of_members) {
     const Link& link = links[i];
     const std::size_t target = target_node(line, added[link.to.fragment], link);
