@@ -55,7 +55,7 @@ struct LinkSettings {
   double beyond_max = 3.2;         ///< radii, from the end of a fragment to a junction that is hidden
   double seen_empty_max = 0.25;    ///< share of the way between two ends that may be seen to be empty
   // Added to the log odds, since a fragment is more often a part of a tube than one by itself.
-  double chain_prior = 24.0;
+  double chain_prior = 20.0;
   double tree_prior = 10.0;
   double junction_prior = 8.0;
 };
