@@ -16,7 +16,7 @@ namespace {
 TEST(LearnWeights, FindsTheWeightsThatEndsChoseBy) {
   const LinkFeatures weights = {1, -2, 0.5, -1, 0.25, 1.5, -0.5, 0.75};
   Rng rng(1);
-  std::vector<EndExample> ends(100000);
+  std::vector<EndExample> ends(30000);
   for (EndExample& end : ends) {
     std::vector<double> odds;
     for (int i = 0; i < 3; ++i) {
@@ -32,7 +32,7 @@ TEST(LearnWeights, FindsTheWeightsThatEndsChoseBy) {
     }
   }
   const LinkWeights learned = learn_weights(ends);
-  for (std::size_t j = 0; j < weights.size(); ++j) EXPECT_NEAR(learned.chain_ends[j], weights[j], 0.05) << j;
+  for (std::size_t j = 0; j < weights.size(); ++j) EXPECT_NEAR(learned.chain_ends[j], weights[j], 0.1) << j;
   EXPECT_EQ(learned.tree_ends, LinkFeatures{});
   EXPECT_EQ(learned.junction, LinkFeatures{});
 }
