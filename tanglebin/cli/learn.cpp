@@ -43,9 +43,8 @@ Count count(const std::vector<EndExample>& ends, LinkKind kind) {
       if (link.is_true) ++result.true_links;
     }
   }
-  // A link between two ends is an example at each of them.
-  const int times = kind == LinkKind::junction ? 1 : 2;
-  return {result.links / times, result.true_links / times};
+  // A link is an example at each end that it takes up.
+  return {result.links / ends_taken(kind), result.true_links / ends_taken(kind)};
 }
 
 void learn(const LearnArguments& arguments) {

@@ -80,9 +80,9 @@ double prior(LinkKind kind, const LinkSettings& settings) {
 
 double weight_of(const Link& link, const LinkSettings& settings) {
   const LinkFeatures& weights = learned_weights.of(link.kind);
-  const int ends = link.kind == LinkKind::junction ? 1 : 2;
-  return prior(link.kind, settings) +
-         ends * std::inner_product(weights.begin(), weights.end(), link.features.begin(), 0.0);
+  return prior(link.kind, settings) + ends_taken(link.kind) * std::inner_product(weights.begin(),
+                                                                                 weights.end(),
+                                                                                 link.features.begin(), 0.0);
 }
 
 // The cubic Hermite curve from one end to the other, at t in [0, 1].
@@ -110,12 +110,6 @@ double share_seen_empty(const FragmentEnd& first, const FragmentEnd& second, con
   return static_cast<double>(std::min(straight, curved)) / samples;
 }
 
-/// What is known of a piece of a tube.
-struct Piece {
-  double length;  // m
-  int ends;
-};
-
 // 1 where a fragment ends for all to see, 0 where what covers it goes on.
 double openness_of(const FragmentEnd& end, const RangeImage& seen, double radius) {
   constexpr std::array distances = {1.5, 2.0, 2.5, 3.0};  // radii
@@ -125,6 +119,12 @@ double openness_of(const FragmentEnd& end, const RangeImage& seen, double radius
   return static_cast<double>(std::ranges::count_if(distances, is_empty)) /
          static_cast<double>(distances.size());
 }
+
+/// What is known of a piece of a tube.
+struct Piece {
+  double length;  // m
+  int ends;
+};
 
 /// The tubes that links make of fragments.
 class Tubes {
@@ -162,8 +162,7 @@ public:
 
 private:
   static Piece joined(const Piece& first, const Piece& second, const Link& link) {
-    const int ends_used = link.kind == LinkKind::junction ? 1 : 2;
-    return {first.length + link.gap + second.length, first.ends + second.ends - ends_used};
+    return {first.length + link.gap + second.length, first.ends + second.ends - ends_taken(link.kind)};
   }
 
   boost::disjoint_sets_with_storage<> sets_;

@@ -27,6 +27,11 @@ enum class LinkKind {
   tree_ends,   ///< between two ends of trees
   junction,    ///< from an end to a junction
 };
+/// How many ends of fragments a link of this kind takes up.
+constexpr int ends_taken(LinkKind kind) {
+  return kind == LinkKind::junction ? 1 : 2;
+}
+
 inline constexpr std::array link_kinds = {LinkKind::chain_ends, LinkKind::tree_ends, LinkKind::junction};
 
 /// The logarithm of the odds of a link against none, at each of its ends, is the sum of its features times

@@ -32,7 +32,7 @@ TEST(LearnWeights, FindsTheWeightsThatEndsChoseBy) {
     }
   }
   const LinkWeights learned = learn_weights(ends);
-  for (std::size_t j = 0; j < weights.size(); ++j) EXPECT_NEAR(learned.chain_ends[j], weights[j], 0.1) << j;
+  for (std::size_t j = 0; j < weights.size(); ++j) EXPECT_NEAR(learned.chain_ends[j], weights[j], 0.05) << j;
   EXPECT_EQ(learned.tree_ends, LinkFeatures{});
   EXPECT_EQ(learned.junction, LinkFeatures{});
 }

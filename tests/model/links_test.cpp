@@ -53,8 +53,9 @@ TEST(Links, JoinEndsThatFaceEachOtherAndSayHowFarApartTheyAre) {
   EXPECT_EQ(link.to.end, 0U);
   EXPECT_NEAR(link.gap, 0.05, 1e-12);
   // 1, ln(gap + 2 mm), gap, no angles, and nothing that was seen.
-  const LinkFeatures expected = {1, std::log(0.052), 0.05, 0, 0, 0, 0, 0};
-  EXPECT_THAT(link.features, testing::Pointwise(testing::DoubleNear(1e-6), expected));
+  EXPECT_THAT(link.features, ElementsAre(1, testing::DoubleNear(std::log(0.052), 1e-12),
+                                         testing::DoubleNear(0.05, 1e-12), testing::DoubleNear(0, 1e-6),
+                                         testing::DoubleNear(0, 1e-6), testing::DoubleNear(0, 1e-6), 0, 0));
 }
 
 // Two of the three are a tube, but not all of them.
