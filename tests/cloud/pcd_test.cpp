@@ -14,6 +14,7 @@
 
 #include "clouds.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {
@@ -275,13 +276,13 @@ TEST(ReadPcd, TakesTheIdentityForAnUnknownViewpoint) {
 }
 
 TEST(ReadPcd, ReadsAFile) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "read_pcd_test.pcd";
+  const test::TemporaryDirectory directory;
+  const auto file = directory / "cloud.pcd";
   {
     std::ofstream stream(file, std::ios::binary);
     write_pcd(stream, small_cloud());
   }
   EXPECT_TRUE(same_properties(read_pcd(file), small_cloud()));
-  std::filesystem::remove(file);
 }
 
 // ---- bad input

@@ -13,6 +13,7 @@
 
 #include "clouds.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {
@@ -247,10 +248,10 @@ TEST(ReadPly, ReadsAPipe) {
 }
 
 TEST(ReadPly, ReadsAFile) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "read_ply_test.ply";
-  std::ofstream(file, std::ios::binary) << written(small_cloud());
+  const test::TemporaryDirectory directory;
+  const auto file = directory / "cloud.ply";
+  test::write_bytes(file, written(small_cloud()));
   EXPECT_TRUE(same_properties(read_ply(file), small_cloud()));
-  std::filesystem::remove(file);
 }
 
 TEST(ReadPly, ReadsHeadersAndLinesThatEndInCarriageReturns) {

@@ -10,6 +10,7 @@
 #include "tanglebin/cloud/pcd.hpp"
 #include "tanglebin/cloud/ply.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {
@@ -21,7 +22,8 @@ PointCloud read(const std::string& file) {
 }
 
 TEST(ReadCloud, TellsPlyAndPcdApartWhateverTheName) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "read_cloud_test.dat";
+  const test::TemporaryDirectory directory;
+  const auto file = directory / "cloud.dat";
   {
     std::ofstream stream(file, std::ios::binary);
     write_ply(stream, small_cloud());
@@ -32,7 +34,6 @@ TEST(ReadCloud, TellsPlyAndPcdApartWhateverTheName) {
     write_pcd(stream, small_cloud());
   }
   EXPECT_TRUE(same_properties(read_cloud(file), small_cloud()));
-  std::filesystem::remove(file);
 }
 
 TEST(ReadCloud, ReadsPcdWithoutAComment) {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -17,6 +16,7 @@
 #include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/settle/overlap.hpp"
 #include "tanglebin/tube/generate.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "tests/tube/example_tubes.hpp"
 
 namespace checker {
@@ -65,13 +65,10 @@ std::string file_text(const std::vector<Points>& tubes) {
 
 std::vector<std::string> faults_of_text(const std::string& text, int tubes,
                                         const CheckerBin& bin = paper_bin) {
-  const ::testing::TestInfo* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / fmt::format("tanglebin-checker-{}.txt", test->name());
-  std::ofstream(file) << text;
-  const std::vector<std::string> faults = faults_of(file.string(), bin, set_a, tubes);
-  std::filesystem::remove(file);
-  return faults;
+  const tanglebin::test::TemporaryDirectory directory;
+  const auto file = directory / "tubes.txt";
+  tanglebin::test::write_bytes(file, text);
+  return faults_of(file.string(), bin, set_a, tubes);
 }
 
 std::vector<std::string> faults_of_tubes(const std::vector<Points>& tubes) {
@@ -154,12 +151,12 @@ TEST(Checker, ABendOutOfRangeIsAFault) {
   const Points tube = chain({-0.25, 0, radius}, parts);
   EXPECT_THAT(faults_of_tubes({tube}), ElementsAre("tube 1: bend 2 is 31.0000°, not 0 to 30°"));
 
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tanglebin-checker-bends.txt";
-  std::ofstream(file) << file_text({tube});
+  const tanglebin::test::TemporaryDirectory directory;
+  const auto file = directory / "tubes.txt";
+  tanglebin::test::write_bytes(file, file_text({tube}));
   const CheckerTube bent = {.bend_min_deg = 15, .bend_max_deg = 45};
   EXPECT_THAT(faults_of(file.string(), paper_bin, bent, 1),
               ElementsAre("tube 1: bend 1 is 10.0000°, not 15 to 45°"));
-  std::filesystem::remove(file);
 }
 
 // The good file after one change of its text.

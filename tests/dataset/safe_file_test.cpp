@@ -9,27 +9,23 @@
 
 #include <csignal>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "tests/support/complaint.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {
 
+using test::bytes_of;
 using test::complaint;
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::vector<std::string> names_in(const fs::path& directory) {
   std::vector<std::string> names;
@@ -42,16 +38,8 @@ std::vector<std::string> names_in(const fs::path& directory) {
 /// Each test has a directory of its own, gone afterwards.
 class SafeFile : public testing::Test {
 protected:
-  SafeFile() {
-    std::string name = (fs::temp_directory_path() / "tanglebin-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    directory_ = name;
-  }
-  ~SafeFile() override { fs::remove_all(directory_); }
-  SafeFile(const SafeFile&) = delete;
-  SafeFile& operator=(const SafeFile&) = delete;
-
-  fs::path directory_;
+  test::TemporaryDirectory temporary_;
+  fs::path directory_ = temporary_.path();
 };
 
 /// Files of this process cannot grow beyond `bytes`: what a full disk or a quota does, without being one.
@@ -77,14 +65,14 @@ private:
 TEST_F(SafeFile, HoldsTheBytesAndNothingIsBesideIt) {
   const std::string bytes("binary\0\n\r\xff", 10);
   write_file(directory_ / "1.ply", bytes);
-  EXPECT_EQ(read(directory_ / "1.ply"), bytes);
+  EXPECT_EQ(bytes_of(directory_ / "1.ply"), bytes);
   EXPECT_THAT(names_in(directory_), UnorderedElementsAre("1.ply"));
 }
 
 TEST_F(SafeFile, TakesThePlaceOfAnOlderOne) {
   write_file(directory_ / "1.ply", "a long old text");
   write_file(directory_ / "1.ply", "new");
-  EXPECT_EQ(read(directory_ / "1.ply"), "new");
+  EXPECT_EQ(bytes_of(directory_ / "1.ply"), "new");
 }
 
 TEST_F(SafeFile, MayBeEmpty) {
@@ -102,7 +90,7 @@ TEST_F(SafeFile, HasThePermissionsOfAnyNewFile) {
 TEST_F(SafeFile, MayHaveTheLongestName) {
   const std::string name(255, 'n');
   write_file(directory_ / name, "x");
-  EXPECT_EQ(read(directory_ / name), "x");
+  EXPECT_EQ(bytes_of(directory_ / name), "x");
 }
 
 TEST_F(SafeFile, MayBeNamedWithoutADirectory) {
@@ -110,7 +98,7 @@ TEST_F(SafeFile, MayBeNamedWithoutADirectory) {
   fs::current_path(directory_);
   write_file("1.ply", "x");
   fs::current_path(before);
-  EXPECT_EQ(read(directory_ / "1.ply"), "x");
+  EXPECT_EQ(bytes_of(directory_ / "1.ply"), "x");
 }
 
 TEST_F(SafeFile, ALinkStaysALink) {
@@ -118,14 +106,14 @@ TEST_F(SafeFile, ALinkStaysALink) {
   fs::create_symlink("real", directory_ / "link");
   write_file(directory_ / "link", "new");
   EXPECT_TRUE(fs::is_symlink(directory_ / "link"));
-  EXPECT_EQ(read(directory_ / "real"), "new");
+  EXPECT_EQ(bytes_of(directory_ / "real"), "new");
 }
 
 TEST_F(SafeFile, APipeStaysAPipe) {
   const fs::path pipe = directory_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   std::string received;
-  std::thread reader([&] { received = read(pipe); });
+  std::thread reader([&] { received = bytes_of(pipe); });
   write_file(pipe, "through");
   reader.join();
   EXPECT_EQ(received, "through");
@@ -147,7 +135,7 @@ TEST_F(SafeFile, ADiskThatFillsUpLeavesTheOldFileAndNothingElse) {
     error = complaint([&] { write_file(directory_ / "1.ply", bytes); });
   }
   EXPECT_THAT(error, AllOf(HasSubstr((directory_ / "1.ply").string()), HasSubstr("File too large")));
-  EXPECT_EQ(read(directory_ / "1.ply"), "old");
+  EXPECT_EQ(bytes_of(directory_ / "1.ply"), "old");
   EXPECT_THAT(names_in(directory_), UnorderedElementsAre("1.ply"));
 }
 
@@ -182,12 +170,12 @@ TEST_F(SafeFile, ManyWritersOfOneFileEachWriteAWholeOne) {
     });
   }
   for (int i = 0; i < 100; ++i) {
-    const std::string seen = read(file);
+    const std::string seen = bytes_of(file);
     if (seen.empty()) continue;  // not yet there
     ASSERT_EQ(seen, std::string(10000, seen.front()));
   }
   for (std::thread& writer : writers) writer.join();
-  EXPECT_EQ(read(file).size(), 10000U);
+  EXPECT_EQ(bytes_of(file).size(), 10000U);
   EXPECT_THAT(names_in(directory_), UnorderedElementsAre("1.ply"));
 }
 
@@ -198,8 +186,8 @@ TEST_F(SafeFile, WhatAKilledProcessLeftIsNotTouched) {
     std::ofstream(directory_ / left.back()) << "half";
   }
   write_file(directory_ / "1.ply", "whole");
-  EXPECT_EQ(read(directory_ / "1.ply"), "whole");
-  for (const std::string& name : left) EXPECT_EQ(read(directory_ / name), "half");
+  EXPECT_EQ(bytes_of(directory_ / "1.ply"), "whole");
+  for (const std::string& name : left) EXPECT_EQ(bytes_of(directory_ / name), "half");
 }
 
 TEST_F(SafeFile, StagedTakesItsNameWhenItIsCommittedAndNotBefore) {
@@ -211,7 +199,7 @@ TEST_F(SafeFile, StagedTakesItsNameWhenItIsCommittedAndNotBefore) {
     EXPECT_FALSE(fs::exists(directory_ / "1.ply"));
     file.commit();
   }
-  EXPECT_EQ(read(directory_ / "1.ply"), "one file");
+  EXPECT_EQ(bytes_of(directory_ / "1.ply"), "one file");
   EXPECT_THAT(names_in(directory_ / "staging"), IsEmpty());
 }
 
@@ -219,7 +207,7 @@ TEST_F(SafeFile, StagedIsGoneWhereItIsNotCommitted) {
   write_file(directory_ / "1.ply", "old");
   fs::create_directory(directory_ / "staging");
   { StagedFile(directory_ / "1.ply", directory_ / "staging").append("new"); }
-  EXPECT_EQ(read(directory_ / "1.ply"), "old");
+  EXPECT_EQ(bytes_of(directory_ / "1.ply"), "old");
   EXPECT_THAT(names_in(directory_ / "staging"), IsEmpty());
 }
 

@@ -3,11 +3,12 @@
 #include <pcl/point_types.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <limits>
+#include <string>
 
 #include "tanglebin/cloud/pcd.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 // The Point Cloud Library reads what write_pcd() writes, and read_pcd() what it writes.
 namespace tanglebin {
@@ -49,9 +50,8 @@ void expect_same(const PointCloud& ours, const PclCloud& theirs) {
 
 class PclPcd : public testing::Test {
 protected:
-  ~PclPcd() override { std::filesystem::remove(file_); }
-
-  std::string file_ = testing::TempDir() + "pcl_pcd_test.pcd";
+  test::TemporaryDirectory directory_;
+  std::string file_ = directory_ / "cloud.pcd";
 };
 
 TEST_F(PclPcd, PclReadsOurs) {
