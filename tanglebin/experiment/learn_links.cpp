@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "tanglebin/experiment/run.hpp"
@@ -101,21 +100,31 @@ Eigen::Map<const FeatureVector> features_of(const LinkExample& link) {
   return Eigen::Map<const FeatureVector>(link.features.data());
 }
 
-// What is chosen with these log odds, how likely each of it is: less the greatest, so that none overflows.
-std::vector<double> probabilities(std::vector<double> log_odds) {
-  if (log_odds.empty()) return {};
+// ln Σ exp, by the greatest, so that none overflows.
+double log_of_sum(const std::vector<double>& log_odds) {
   const double greatest = std::ranges::max(log_odds);
-  for (double& value : log_odds) value = std::exp(value - greatest);
-  const double sum = std::accumulate(log_odds.begin(), log_odds.end(), 0.0);
-  for (double& value : log_odds) value /= sum;
-  return log_odds;
+  double sum = 0;
+  for (const double value : log_odds) sum += std::exp(value - greatest);
+  return greatest + std::log(sum);
 }
 
-/// The log likelihood's slope, and its curvature without the share of the choice between several true links,
-/// which would make it indefinite.
+/// The log likelihood of what the ends choose, its slope, and its curvature without the share of the choice
+/// between several true links, which would make it indefinite. A little of the weights' square keeps them
+/// finite.
 struct Likelihood {
+  double value = 0;
   Vector slope = Vector::Zero();
   Matrix curvature = Matrix::Zero();
+
+  Likelihood(const std::vector<EndExample>& ends, const Vector& weights)
+      : value(-ridge / 2 * weights.squaredNorm()),
+        slope(-ridge * weights),
+        curvature(ridge * Matrix::Identity()) {
+    for (const EndExample& end : ends) add(end, weights);
+  }
+
+private:
+  static constexpr double ridge = 1e-3;
 
   void add(const EndExample& end, const Vector& weights) {
     std::vector<double> log_odds = {0};  // of no link, and of each
@@ -124,23 +133,29 @@ struct Likelihood {
       log_odds.push_back(of_kind(weights, link.kind).dot(features_of(link)));
       if (link.is_true) log_odds_of_true.push_back(log_odds.back());
     }
-    const std::vector<double> of_all = probabilities(std::move(log_odds));
-    const std::vector<double> of_true = probabilities(std::move(log_odds_of_true));
-    auto next_true = of_true.begin();
+    if (log_odds_of_true.empty()) log_odds_of_true.push_back(log_odds.front());
+    const double of_all = log_of_sum(log_odds);
+    const double of_true = log_of_sum(log_odds_of_true);
+    value += of_true - of_all;
     Vector mean = Vector::Zero();
     for (std::size_t i = 0; i < end.size(); ++i) {
       const FeatureVector features = features_of(end[i]);
-      const double probability = of_all[i + 1];
+      const double probability = std::exp(log_odds[i + 1] - of_all);
       of_kind(mean, end[i].kind) += probability * features;
       const Eigen::Index first = first_of(end[i].kind);
       curvature.block<link_features, link_features>(first, first) +=
           probability * features * features.transpose();
-      if (end[i].is_true) of_kind(slope, end[i].kind) += *next_true++ * features;
+      if (end[i].is_true) of_kind(slope, end[i].kind) += std::exp(log_odds[i + 1] - of_true) * features;
     }
     slope -= mean;
     curvature -= mean * mean.transpose();
   }
 };
+
+bool is_small(const Vector& step) {
+  constexpr double small = 1e-9;
+  return step.cwiseAbs().maxCoeff() < small;
+}
 
 }  // namespace
 
@@ -169,18 +184,20 @@ std::vector<EndExample> end_examples(const Dataset& dataset, const CaseId& id) {
 }
 
 LinkWeights learn_weights(const std::vector<EndExample>& ends) {
-  constexpr double ridge = 1e-3;
-  constexpr double small_step = 1e-9;
   constexpr int steps_max = 1000;
   Vector weights = Vector::Zero();
+  Likelihood likelihood(ends, weights);
   for (int i = 0; i < steps_max; ++i) {
-    Likelihood likelihood;
-    likelihood.slope = -ridge * weights;
-    likelihood.curvature = ridge * Matrix::Identity();
-    for (const EndExample& end : ends) likelihood.add(end, weights);
-    const Vector step = likelihood.curvature.ldlt().solve(likelihood.slope);
+    // Newton's step, or as much of it as does not overshoot.
+    Vector step = likelihood.curvature.ldlt().solve(likelihood.slope);
+    Likelihood next(ends, weights + step);
+    while (next.value < likelihood.value && !is_small(step)) {
+      step /= 2;
+      next = Likelihood(ends, weights + step);
+    }
     weights += step;
-    if (step.cwiseAbs().maxCoeff() < small_step) break;
+    likelihood = next;
+    if (is_small(step)) break;
   }
   const auto learned = [&](LinkKind kind) {
     LinkFeatures result;

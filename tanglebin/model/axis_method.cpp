@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tanglebin/base/picked.hpp"
+#include "tanglebin/model/choose_links.hpp"
 #include "tanglebin/model/kinds.hpp"
 #include "tanglebin/model/range_image.hpp"
 #include "tanglebin/model/step_clock.hpp"

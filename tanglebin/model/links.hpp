@@ -14,10 +14,9 @@ namespace tanglebin {
 /// What a link is judged by. For two ends: with p and q the ends, d1 and d2 the ways out of the first and
 /// into the second, v = q − p, and α = angle(d1, v) + angle(d2, v) as in the paper's Section 4, or angle(d1,
 /// d2) where the ends are nearer than a radius: 1, ln(|v| + 2 mm), |v|, α, α², angle(d1, d2), the share of v
-/// on which the sensor saw past a tube, and the ends' mean openness: the share of the way straight on beyond
-/// an end, from 1.5 to 3 radii, on which the sensor saw past a tube. For an end and a junction at q: α =
-/// angle(d1, v), instead of angle(d1, d2) how far q is beyond the end of its fragment, m, and the openness of
-/// the one end.
+/// on which the sensor saw past a tube, and how far other fragments are in the way: √ of the mean of
+/// Obstacles::overlap() over v, without what is within a diameter of the ends. For an end and a junction at
+/// q: α = angle(d1, v), and instead of angle(d1, d2) how far q is beyond the end of its fragment, m.
 inline constexpr std::size_t link_features = 8;
 using LinkFeatures = std::array<double, link_features>;
 
@@ -46,9 +45,9 @@ struct LinkWeights {
 
 /// What `tanglebin learn` gives for recipes/learning.toml, to four decimals.
 inline constexpr LinkWeights learned_weights = {
-    .chain_ends = {-8.5090, -6.0014, 11.1989, -9.0465, -0.2919, 3.4902, -34.5645, -2.2967},
-    .tree_ends = {3.9937, -1.4461, -26.6504, -8.4004, 0.8899, 2.8816, -12.2936, -1.1235},
-    .junction = {4.3452, 0.1754, -35.4446, -9.0188, 2.5482, -61.5782, -25.0403, 0.3937},
+    .chain_ends = {-0.0724, -3.1099, 6.8883, -9.3844, 0.4838, 2.5866, -27.2495, -18.9844},
+    .tree_ends = {7.1219, -0.4529, -27.2372, -8.4064, 0.8728, 2.8792, -15.6494, -4.9403},
+    .junction = {2.9173, -0.1921, -28.5435, -9.0239, 2.5615, -70.4630, -22.8202, -2.7246},
 };
 
 struct LinkSettings {
@@ -60,7 +59,7 @@ struct LinkSettings {
   double beyond_max = 3.2;         ///< radii, from the end of a fragment to a junction that is hidden
   double seen_empty_max = 0.25;    ///< share of the way between two ends that may be seen to be empty
   // Added to the log odds, since a fragment is more often a part of a tube than one by itself.
-  double chain_prior = 20.0;
+  double chain_prior = 16.0;
   double tree_prior = 10.0;
   double junction_prior = 8.0;
 };
@@ -92,15 +91,7 @@ struct Link {
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
                              const TubeKind& kind, const LinkSettings& settings);
 
-/// The links that together are the likeliest, with which every tube is open, no longer than known, and has no
-/// more ends than there can be: for chains a matching of greatest weight between the ends, for trees the
-/// heaviest links one after the other; then links are exchanged as long as the sum of the weights grows.
-/// Indices, ascending.
-std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
-                                      const TubeKind& kind, const LinkSettings& settings);
-
-/// The fragments of each tube that the chosen links make: each ascending, the tubes by their first.
-std::vector<std::vector<std::size_t>> linked_fragments(std::size_t fragments, const std::vector<Link>& links,
-                                                       const std::vector<std::size_t>& chosen);
+/// The logarithm of the odds that a link is true, for all of its ends together.
+double weight_of(const Link& link, const LinkSettings& settings);
 
 }  // namespace tanglebin

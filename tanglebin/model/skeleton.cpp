@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "tanglebin/model/voxel_key.hpp"
+
 namespace tanglebin {
 namespace {
 
@@ -25,15 +27,6 @@ struct Voxel {
 
   Vector3d mean() const { return sum / static_cast<double>(points); }
 };
-
-std::uint64_t hash(const Vector3i& key) {
-  constexpr int bits = 21;
-  constexpr int offset = 1 << (bits - 1);
-  std::uint64_t result = 0;
-  for (const int coordinate : key)
-    result = (result << bits) | static_cast<std::uint64_t>(coordinate + offset);
-  return result;
-}
 
 // One of each two opposite neighbours of a voxel.
 std::array<Vector3i, 13> half_of_the_neighbours() {
@@ -61,7 +54,7 @@ VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, double size) {
     if (!points[i].allFinite()) continue;
     const Vector3d point = points[i].cast<double>();
     const Vector3i key = (point / size).array().floor().cast<int>();
-    const auto [found, is_new] = at.try_emplace(hash(key), grid.voxels.size());
+    const auto [found, is_new] = at.try_emplace(voxel_key(key), grid.voxels.size());
     if (is_new) grid.voxels.push_back({key});
     Voxel& voxel = grid.voxels[found->second];
     voxel.sum += point;
@@ -71,7 +64,7 @@ VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, double size) {
   const auto offsets = half_of_the_neighbours();
   for (std::size_t i = 0; i < grid.voxels.size(); ++i) {
     for (const Vector3i& offset : offsets) {
-      const auto found = at.find(hash(grid.voxels[i].key + offset));
+      const auto found = at.find(voxel_key(grid.voxels[i].key + offset));
       if (found == at.end()) continue;
       grid.voxels[i].neighbours.push_back(found->second);
       grid.voxels[found->second].neighbours.push_back(i);

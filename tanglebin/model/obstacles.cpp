@@ -1,0 +1,40 @@
+#include "tanglebin/model/obstacles.hpp"
+
+#include <algorithm>
+
+#include "tanglebin/model/voxel_key.hpp"
+
+namespace tanglebin {
+
+using Eigen::Vector3d;
+using Eigen::Vector3i;
+
+Obstacles::Obstacles(const std::vector<Fragment>& fragments, double radius) : diameter_(2 * radius) {
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    for (const Vector3d& node : fragments[i].nodes) {
+      const Vector3i cell = cell_of(node);
+      for (int x = -1; x <= 1; ++x) {
+        for (int y = -1; y <= 1; ++y) {
+          for (int z = -1; z <= 1; ++z) around_[voxel_key(cell + Vector3i(x, y, z))].push_back({node, i});
+        }
+      }
+    }
+  }
+}
+
+double Obstacles::overlap(const Vector3d& axis, std::size_t first, std::size_t second) const {
+  const auto found = around_.find(voxel_key(cell_of(axis)));
+  if (found == around_.end()) return 0;
+  double nearest = diameter_;
+  for (const Node& node : found->second) {
+    if (node.fragment == first || node.fragment == second) continue;
+    nearest = std::min(nearest, (node.position - axis).norm());
+  }
+  return 1 - nearest / diameter_;
+}
+
+Vector3i Obstacles::cell_of(const Vector3d& position) const {
+  return (position / diameter_).array().floor().cast<int>();
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace tanglebin {
+
+/// A cell of a grid as one number. Coordinates from −2²⁰ to 2²⁰ − 1.
+inline std::uint64_t voxel_key(const Eigen::Vector3i& cell) {
+  constexpr int bits = 21;
+  constexpr int offset = 1 << (bits - 1);
+  std::uint64_t key = 0;
+  for (const int coordinate : cell) key = (key << bits) | static_cast<std::uint64_t>(coordinate + offset);
+  return key;
+}
+
+}  // namespace tanglebin
