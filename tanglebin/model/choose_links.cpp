@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
-#include <functional>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -68,7 +68,7 @@ private:
 /// What links there may be between some fragments, and how heavy they are.
 struct Candidates {
   const std::vector<Fragment>& fragments;
-  const std::vector<Link>& links;
+  const std::vector<Link>& links;          ///< the heaviest first
   const std::vector<WeightedPair>& pairs;  ///< a link's two ends as vertices, and its weight
   std::size_t vertices;
   const TubeKind& kind;
@@ -85,10 +85,10 @@ public:
 
   /// Takes a link where that is possible, and says whether it is.
   bool take(std::size_t link) {
-    const auto& [first, second, weight] = candidates_->pairs[link];
-    if (used_[first] || used_[second] || !tubes_.allow(candidates_->links[link])) return false;
+    if (!has_free_ends(link) || !tubes_.allow(candidates_->links[link])) return false;
     tubes_.join(candidates_->links[link]);
-    used_[first] = used_[second] = true;
+    const auto& [first, second, weight] = candidates_->pairs[link];
+    used_[first] = used_[second] = 1;
     weight_ += weight;
     taken_.push_back(link);
     return true;
@@ -96,54 +96,51 @@ public:
 
   /// Takes these links, one after the other, where that is possible.
   void take_possible(const std::vector<std::size_t>& links) {
-    for (const std::size_t link : links) take(link);
+    for (const std::size_t link : links) {
+      if (has_free_ends(link)) take(link);  // most have not
+    }
   }
 
   const std::vector<std::size_t>& taken() const { return taken_; }
   double weight() const { return weight_; }
 
 private:
+  bool has_free_ends(std::size_t link) const {
+    const WeightedPair& pair = candidates_->pairs[link];
+    return (used_[pair.first] | used_[pair.second]) == 0;
+  }
+
   const Candidates* candidates_;
   Tubes tubes_;
-  std::vector<bool> used_;
+  std::vector<std::uint8_t> used_;  // whether a vertex is: bytes are quicker to read than bits
   std::vector<std::size_t> taken_;
   double weight_ = 0;
 };
 
-std::vector<std::size_t> heaviest_first(const std::vector<std::size_t>& links,
-                                        const std::vector<WeightedPair>& pairs) {
-  std::vector<std::size_t> order = links;
-  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return pairs[i].weight; });
-  return order;
-}
-
-// Goes on to a heavier selection as long as there is one that has a link which was left out so far, what can
-// be kept beside that, and the heaviest of the others. `order` has all links, the heaviest first.
-Selection exchanged(Selection best, const std::vector<std::size_t>& order, const Candidates& candidates) {
+// Goes on to a heavier selection as long as there is one that has a certain link, what can be kept beside
+// that, and the heaviest of the others.
+Selection exchanged(Selection best, const std::vector<std::size_t>& all, const Candidates& candidates) {
   constexpr double rounding = 1e-9;
   const Selection none(candidates);
-  for (bool is_better = true; is_better;) {
-    is_better = false;
-    for (const std::size_t i : order) {
-      Selection other = none;
-      other.take(i);
-      other.take_possible(best.taken());
-      other.take_possible(order);
-      if (other.weight() <= best.weight() + rounding) continue;
-      best = std::move(other);
-      is_better = true;
-    }
+  std::size_t in_vain = 0;  // links tried since the last exchange
+  for (std::size_t i = 0; in_vain < all.size(); i = (i + 1) % all.size()) {
+    Selection other = none;
+    other.take(i);
+    other.take_possible(best.taken());
+    other.take_possible(all);
+    const bool is_better = other.weight() > best.weight() + rounding;
+    if (is_better) best = std::move(other);
+    in_vain = is_better ? 0 : in_vain + 1;
   }
   return best;
 }
 
-// The links that make one of the tubes impossible: of each such tube the weakest. They are found by taking
-// the links of the matching one after the other, the heaviest first.
+// The links that make one of the tubes impossible: of each such tube the weakest.
 std::vector<std::size_t> impossible_links(const std::vector<std::size_t>& matching,
                                           const Candidates& candidates) {
   Selection possible(candidates);
   std::vector<std::size_t> impossible;
-  for (const std::size_t i : heaviest_first(matching, candidates.pairs)) {
+  for (const std::size_t i : matching) {
     if (!possible.take(i)) impossible.push_back(i);
   }
   return impossible;
@@ -180,13 +177,12 @@ std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, co
   const Candidates candidates{fragments, links, pairs, 2 * ends, kind, settings};
   std::vector<std::size_t> all(links.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const std::vector<std::size_t> order = heaviest_first(all, pairs);
 
   Selection selection(candidates);
   // Three ends meet at a junction: a matching, which pairs them, finds chains only.
   if (kind.junctions == 0) selection.take_possible(possible_matching(candidates));
-  selection.take_possible(order);
-  std::vector<std::size_t> chosen = exchanged(std::move(selection), order, candidates).taken();
+  selection.take_possible(all);
+  std::vector<std::size_t> chosen = exchanged(std::move(selection), all, candidates).taken();
   std::ranges::sort(chosen);
   return chosen;
 }

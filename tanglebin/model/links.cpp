@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -83,20 +84,21 @@ Vector3d on_curve(const FragmentEnd& first, const FragmentEnd& second, double t)
          t * t * (3 - 2 * t) * second.position + t * t * s * gap * second.outward;
 }
 
-// The mean of a measure of places on the way between two ends, straight or curved, whichever is less.
+// The mean of a measure, 0 or more, of places on the way between two ends: straight or curved, whichever is
+// less.
 template <typename Measure>
 double least_mean(const FragmentEnd& first, const FragmentEnd& second, double radius, Measure measure) {
   const Vector3d way = second.position - first.position;
   constexpr double step = 0.4;  // radii, of a short way
   const int samples = std::clamp(static_cast<int>(way.norm() / (step * radius)) - 1, 1, 16);
-  double straight = 0;
-  double curved = 0;
-  for (int i = 1; i <= samples; ++i) {
-    const double t = static_cast<double>(i) / (samples + 1);
-    straight += measure(first.position + t * way);
-    curved += measure(on_curve(first, second, t));
-  }
-  return std::min(straight, curved) / samples;
+  const auto mean = [&](auto place) {
+    double sum = 0;
+    for (int i = 1; i <= samples; ++i) sum += measure(place(static_cast<double>(i) / (samples + 1)));
+    return sum / samples;
+  };
+  const double straight = mean([&](double t) -> Vector3d { return first.position + t * way; });
+  if (straight == 0) return 0;
+  return std::min(straight, mean([&](double t) { return on_curve(first, second, t); }));
 }
 
 // The share of the way between two ends on which the sensor saw past a tube.
@@ -143,7 +145,7 @@ public:
   // To the other fragment's place of the least cost, as the paper's method weighs joins (Section 4).
   void to_junction(std::size_t first, std::size_t second) {
     const Fragment& f = fragments_[first];
-    const double metres_for_a_radian = settings_.gap_max / settings_.angle_max;
+    constexpr double metres_for_a_radian = 0.1125;
     for (std::size_t i = 0; i < f.ends.size(); ++i) {
       const FragmentEnd& end = f.ends[i];
       const auto cost = [&](const JunctionPlace& place) {
@@ -159,12 +161,15 @@ public:
     }
   }
 
-  std::vector<Link> found() { return std::move(links_); }
+  std::vector<Link> found() {
+    std::ranges::stable_sort(links_, std::greater<>(),
+                             [&](const Link& link) { return weight_of(link, settings_); });
+    return std::move(links_);
+  }
 
 private:
   bool may_span(double gap, const Fragment& first, const Fragment& second) const {
-    return gap <= settings_.gap_max &&
-           first.length + gap + second.length <= kind_.length * (1 + settings_.length_tolerance);
+    return first.length + gap + second.length <= kind_.length * (1 + settings_.length_tolerance);
   }
 
   void take_if_likely(Link link, const FragmentEnd& from, const FragmentEnd& to) {

@@ -45,13 +45,12 @@ struct LinkWeights {
 
 /// What `tanglebin learn` gives for recipes/learning.toml, to four decimals.
 inline constexpr LinkWeights learned_weights = {
-    .chain_ends = {-0.0724, -3.1099, 6.8883, -9.3844, 0.4838, 2.5866, -27.2495, -18.9844},
-    .tree_ends = {7.1219, -0.4529, -27.2372, -8.4064, 0.8728, 2.8792, -15.6494, -4.9403},
-    .junction = {2.9173, -0.1921, -28.5435, -9.0239, 2.5615, -70.4630, -22.8202, -2.7246},
+    .chain_ends = {-0.8867, -3.3055, 9.7251, -9.2417, 0.4757, 2.4964, -28.5830, -18.1439},
+    .tree_ends = {7.1238, -0.4524, -27.2449, -8.4064, 0.8728, 2.8792, -15.6493, -4.9403},
+    .junction = {2.9177, -0.1920, -28.5459, -9.0239, 2.5615, -70.4623, -22.8202, -2.7245},
 };
 
 struct LinkSettings {
-  double gap_max = 0.36;           ///< m, between two ends
   double angle_max = 3.2;          ///< rad, α
   double length_tolerance = 0.03;  ///< of the known length, by which a tube may be too long
   int ends_tolerance = 1;          ///< ends that a tree may have too many: where noise made a branch
@@ -86,8 +85,9 @@ struct Link {
 };
 
 /// The links that there may be between fragments of tubes of the known radius, length and number of
-/// junctions: no gap wider, no turn sharper, no tube longer than the settings allow, and the space between
-/// was not seen to be empty. Where there may be junctions, of each end and other fragment the likeliest.
+/// junctions, the heaviest first: no turn sharper, no tube longer than the settings allow, and the space
+/// between was not seen to be empty. Where there may be junctions, of each end and other fragment the
+/// likeliest.
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
                              const TubeKind& kind, const LinkSettings& settings);
 

@@ -1,6 +1,7 @@
 #include "tanglebin/model/obstacles.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tanglebin/model/voxel_key.hpp"
 
@@ -25,12 +26,12 @@ Obstacles::Obstacles(const std::vector<Fragment>& fragments, double radius) : di
 double Obstacles::overlap(const Vector3d& axis, std::size_t first, std::size_t second) const {
   const auto found = around_.find(voxel_key(cell_of(axis)));
   if (found == around_.end()) return 0;
-  double nearest = diameter_;
+  double nearest = diameter_ * diameter_;  // squared, m²
   for (const Node& node : found->second) {
     if (node.fragment == first || node.fragment == second) continue;
-    nearest = std::min(nearest, (node.position - axis).norm());
+    nearest = std::min(nearest, (node.position - axis).squaredNorm());
   }
-  return 1 - nearest / diameter_;
+  return 1 - std::sqrt(nearest) / diameter_;
 }
 
 Vector3i Obstacles::cell_of(const Vector3d& position) const {
