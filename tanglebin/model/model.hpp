@@ -27,7 +27,7 @@ struct KnownScene {
 };
 
 /// Throws InputError naming the field of a scene that is none: what bin and camera refuse, no kind, a radius
-/// or length that is not a finite positive number, a radius of two kinds.
+/// or length that is not a finite positive number, a radius of two kinds or too small for the bin.
 void validate(const KnownScene& known);
 
 /// What a step of a method left, and how long it took.

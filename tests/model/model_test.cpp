@@ -157,6 +157,9 @@ TEST_P(ModelTubes, RefusesASceneThatIsNone) {
   KnownScene scene = paper_scene();
   scene.kinds[0].radius = 0;
   EXPECT_THAT(complaint({}, scene, 1), HasSubstr("radius: found 0, expected a positive number"));
+  scene.kinds[0].radius = 1e-9;
+  EXPECT_THAT(complaint({}, scene, 1),
+              HasSubstr("radius: found 1e-09 m, expected at least 5.5e-06 m, for a bin that is 0.55 m long"));
   scene = paper_scene();
   scene.kinds[0].length = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(complaint({}, scene, 1), HasSubstr("length: found nan"));
