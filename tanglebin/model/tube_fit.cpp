@@ -9,6 +9,8 @@
 #include <map>
 #include <utility>
 
+#include "tanglebin/model/junctions.hpp"
+#include "tanglebin/model/line_tree.hpp"
 #include "tanglebin/tube/capsule.hpp"
 
 namespace tanglebin {
@@ -18,21 +20,6 @@ using Eigen::Vector3d;
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-/// A centre line: a tree.
-struct Line {
-  std::vector<Vector3d> nodes;  // m
-  std::vector<std::array<std::size_t, 2>> edges;
-};
-
-std::vector<std::vector<std::size_t>> neighbours_in(const Line& line) {
-  std::vector<std::vector<std::size_t>> neighbours(line.nodes.size());
-  for (const auto& [first, second] : line.edges) {
-    neighbours[first].push_back(second);
-    neighbours[second].push_back(first);
-  }
-  return neighbours;
-}
-
 /// The nodes that a fragment has in a line.
 struct FragmentNodes {
   std::size_t first;
@@ -40,7 +27,7 @@ struct FragmentNodes {
 };
 
 // The fragment's centre line, out to its ends.
-FragmentNodes add_fragment(Line& line, const Fragment& fragment) {
+FragmentNodes add_fragment(LineTree& line, const Fragment& fragment) {
   const std::size_t offset = line.nodes.size();
   line.nodes.insert(line.nodes.end(), fragment.nodes.begin(), fragment.nodes.end());
   for (std::size_t node = 1; node < fragment.nodes.size(); ++node) {
@@ -63,7 +50,7 @@ FragmentNodes add_fragment(Line& line, const Fragment& fragment) {
 
 // The node of the line that a link leads to. A junction beyond an end is a new one, and from then on that
 // end.
-std::size_t target_node(Line& line, FragmentNodes& fragment, const Link& link) {
+std::size_t target_node(LineTree& line, FragmentNodes& fragment, const Link& link) {
   if (!link.to.end) return fragment.first + link.to.node;
   std::size_t& end = fragment.ends[*link.to.end];
   if (link.kind == LinkKind::junction) {
@@ -74,9 +61,9 @@ std::size_t target_node(Line& line, FragmentNodes& fragment, const Link& link) {
   return end;
 }
 
-Line assemble(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
-              const std::vector<Link>& links, const std::vector<std::size_t>& chosen) {
-  Line line;
+LineTree assemble(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
+                  const std::vector<Link>& links, const std::vector<std::size_t>& chosen) {
+  LineTree line;
   std::map<std::size_t, FragmentNodes> added;
   for (const std::size_t member : members) added[member] = add_fragment(line, fragments[member]);
   std::vector<std::size_t> of_members;
@@ -111,39 +98,8 @@ void mark_needed(const std::vector<Vector3d>& nodes, const std::vector<std::size
   mark_needed(nodes, path, at, last, tolerance, needed);
 }
 
-/// The nodes of a line by what they are: ends and junctions are named, the others lie on paths between these.
-class Paths {
-public:
-  explicit Paths(const Line& line) : neighbours_(neighbours_in(line)) {
-    for (std::size_t start = 0; start < neighbours_.size(); ++start) {
-      if (is_named(start)) add_paths_from(start);
-    }
-  }
-
-  bool is_named(std::size_t node) const { return neighbours_[node].size() != 2; }
-  const std::vector<std::vector<std::size_t>>& all() const { return paths_; }
-
-private:
-  // Those that end at a later node: the others are known from their other end.
-  void add_paths_from(std::size_t start) {
-    for (const std::size_t next : neighbours_[start]) {
-      std::vector<std::size_t> path{start, next};
-      while (!is_named(path.back())) path.push_back(after(path));
-      if (path.back() > start) paths_.push_back(std::move(path));
-    }
-  }
-
-  std::size_t after(const std::vector<std::size_t>& path) const {
-    const auto& around = neighbours_[path.back()];
-    return around[0] == path[path.size() - 2] ? around[1] : around[0];
-  }
-
-  std::vector<std::vector<std::size_t>> neighbours_;
-  std::vector<std::vector<std::size_t>> paths_;
-};
-
 // The nodes of a path that are needed, without those that nearly coincide.
-std::vector<std::size_t> needed_nodes(const Line& line, const std::vector<std::size_t>& path,
+std::vector<std::size_t> needed_nodes(const LineTree& line, const std::vector<std::size_t>& path,
                                       double tolerance) {
   std::vector<bool> needed(line.nodes.size());
   mark_needed(line.nodes, path, 0, path.size() - 1, tolerance, needed);
@@ -157,9 +113,9 @@ std::vector<std::size_t> needed_nodes(const Line& line, const std::vector<std::s
 }
 
 // Fewer nodes: ends and junctions, which come first, and the bends between them.
-Line simplified(const Line& line, double tolerance) {
+LineTree simplified(const LineTree& line, double tolerance) {
   const Paths paths(line);
-  Line result;
+  LineTree result;
   std::vector<std::size_t> new_index(line.nodes.size(), none);
   const auto add = [&](std::size_t node) {
     new_index[node] = result.nodes.size();
@@ -185,7 +141,7 @@ struct Foot {
   Vector3d way;  // m, from the axis to the point
 };
 
-Foot foot_of(const Line& line, const Vector3d& point) {
+Foot foot_of(const LineTree& line, const Vector3d& point) {
   Foot foot{none, 0, {}};
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t edge = 0; edge < line.edges.size(); ++edge) {
@@ -202,7 +158,7 @@ Foot foot_of(const Line& line, const Vector3d& point) {
 
 // One Gauss-Newton step for the distances of the points to the surface, damped so that what no point speaks
 // of stays where it is.
-void improve(Line& line, const std::vector<Vector3d>& points, double radius, double residual_max) {
+void improve(LineTree& line, const std::vector<Vector3d>& points, double radius, double residual_max) {
   const auto size = static_cast<Eigen::Index>(3 * line.nodes.size());
   Eigen::MatrixXd normal_matrix = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd right_side = Eigen::VectorXd::Zero(size);
@@ -247,7 +203,7 @@ std::vector<Vector3d> some_points(const std::vector<Fragment>& fragments,
 }
 
 // Named nodes are 1, 2, …; inner ones follow after a gap, as in the published data.
-Tube tube_of(const Line& line, double radius) {
+Tube tube_of(const LineTree& line, double radius) {
   const auto neighbours = neighbours_in(line);
   const auto named = std::ranges::count_if(neighbours, [](const auto& around) { return around.size() != 2; });
   Tube tube;
@@ -273,7 +229,8 @@ Tube tube_of(const Line& line, double radius) {
 Tube fit_tube(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
               const std::vector<Link>& links, const std::vector<std::size_t>& chosen,
               const std::vector<Eigen::Vector3f>& points, double radius, const TubeFitSettings& settings) {
-  Line line = simplified(assemble(fragments, members, links, chosen), settings.tolerance * radius);
+  LineTree line = simplified(with_junctions_drawn_back(assemble(fragments, members, links, chosen), radius),
+                             settings.tolerance * radius);
   const std::vector<Vector3d> fitted_to = some_points(fragments, members, points, settings.points_max);
   for (int i = 0; i < settings.iterations; ++i)
     improve(line, fitted_to, radius, settings.residual_max * radius);

@@ -1,0 +1,36 @@
+#include "tanglebin/model/line_tree.hpp"
+
+#include <utility>
+
+namespace tanglebin {
+
+std::vector<std::vector<std::size_t>> neighbours_in(const LineTree& line) {
+  std::vector<std::vector<std::size_t>> neighbours(line.nodes.size());
+  for (const auto& [first, second] : line.edges) {
+    neighbours[first].push_back(second);
+    neighbours[second].push_back(first);
+  }
+  return neighbours;
+}
+
+Paths::Paths(const LineTree& line) : neighbours_(neighbours_in(line)) {
+  for (std::size_t start = 0; start < neighbours_.size(); ++start) {
+    if (is_named(start)) add_paths_from(start);
+  }
+}
+
+// Those that end at a later node: the others are known from their other end.
+void Paths::add_paths_from(std::size_t start) {
+  for (const std::size_t next : neighbours_[start]) {
+    std::vector<std::size_t> path{start, next};
+    while (!is_named(path.back())) path.push_back(after(path));
+    if (path.back() > start) paths_.push_back(std::move(path));
+  }
+}
+
+std::size_t Paths::after(const std::vector<std::size_t>& path) const {
+  const auto& around = neighbours_[path.back()];
+  return around[0] == path[path.size() - 2] ? around[1] : around[0];
+}
+
+}  // namespace tanglebin
