@@ -83,9 +83,9 @@ public:
         tubes_(candidates.fragments, candidates.kind, candidates.settings),
         used_(candidates.vertices) {}
 
-  /// Takes a link where that is possible, and says whether it is.
+  /// Takes a link whose ends are free where that makes possible tubes, and says whether it does.
   bool take(std::size_t link) {
-    if (!has_free_ends(link) || !tubes_.allow(candidates_->links[link])) return false;
+    if (!tubes_.allow(candidates_->links[link])) return false;
     tubes_.join(candidates_->links[link]);
     const auto& [first, second, weight] = candidates_->pairs[link];
     used_[first] = used_[second] = 1;
@@ -172,7 +172,7 @@ std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, co
     const std::size_t from = ends_before[link.fragment] + link.end;
     const bool leads_to_junction = link.kind == LinkKind::junction;
     const std::size_t to = leads_to_junction ? ends + from : ends_before[link.to.fragment] + *link.to.end;
-    pairs.push_back({from, to, weight_of(link, settings)});
+    pairs.push_back({from, to, link.weight});
   }
   const Candidates candidates{fragments, links, pairs, 2 * ends, kind, settings};
   std::vector<std::size_t> all(links.size());

@@ -40,16 +40,13 @@ Branch branch_along(const LineTree& line, const Path& path, double radius) {
   return {start, (place_along(line, path, seen_to * radius) - start).normalized()};
 }
 
-// Halfway between the places at which two lines are nearest to each other.
-Vector3d meeting_place(const Branch& a, const Branch& b) {
-  const Vector3d between = a.start - b.start;
-  const double cosine = a.direction.dot(b.direction);
-  const double along_a = a.direction.dot(between);
-  const double along_b = b.direction.dot(between);
-  const double sine_squared = 1 - cosine * cosine;
-  const Vector3d on_a = a.start + (cosine * along_b - along_a) / sine_squared * a.direction;
-  const Vector3d on_b = b.start + (along_b - cosine * along_a) / sine_squared * b.direction;
-  return (on_a + on_b) / 2;
+// Halfway between the places at which two branches, drawn on backwards, are nearest to each other.
+Vector3d meeting_place(const Branch& a, const Branch& b, double radius) {
+  constexpr double length = 2 * back_max;  // enough for branches at a right angle
+  const Vector3d way_a = -length * radius * a.direction;
+  const Vector3d way_b = -length * radius * b.direction;
+  const SegmentPair nearest = closest_points(a.start, a.start + way_a, b.start, b.start + way_b);
+  return (a.start + nearest.s * way_a + b.start + nearest.t * way_b) / 2;
 }
 
 // How far along a path the place is that is nearest to a point; none where that is too far from either.
@@ -103,7 +100,7 @@ void draw_back(LineTree& line, const std::array<Path, 3>& paths, double radius) 
   if (sharpest <= blunt || sharpest >= parallel) return;
   const std::size_t first = (stem + 1) % 3;
   const std::size_t second = (stem + 2) % 3;
-  const Vector3d meeting = meeting_place(branches[first], branches[second]);
+  const Vector3d meeting = meeting_place(branches[first], branches[second], radius);
   const std::optional<double> back = way_back(line, paths[stem], meeting, radius);
   if (!back) return;
   const Vector3d junction = place_along(line, paths[stem], *back);

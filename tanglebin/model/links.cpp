@@ -76,6 +76,13 @@ double prior(LinkKind kind, const LinkSettings& settings) {
   return 0;
 }
 
+double weight_of(const Link& link, const LinkSettings& settings) {
+  const LinkFeatures& weights = learned_weights.of(link.kind);
+  return prior(link.kind, settings) + ends_taken(link.kind) * std::inner_product(weights.begin(),
+                                                                                 weights.end(),
+                                                                                 link.features.begin(), 0.0);
+}
+
 // The cubic Hermite curve from one end to the other, at t in [0, 1].
 Vector3d on_curve(const FragmentEnd& first, const FragmentEnd& second, double t) {
   const double gap = (second.position - first.position).norm();
@@ -162,8 +169,7 @@ public:
   }
 
   std::vector<Link> found() {
-    std::ranges::stable_sort(links_, std::greater<>(),
-                             [&](const Link& link) { return weight_of(link, settings_); });
+    std::ranges::stable_sort(links_, std::greater<>(), &Link::weight);
     return std::move(links_);
   }
 
@@ -173,14 +179,18 @@ private:
   }
 
   void take_if_likely(Link link, const FragmentEnd& from, const FragmentEnd& to) {
-    if (link.features[alpha] > settings_.angle_max) return;
+    if (link.features[alpha] > settings_.angle_max || !is_likely(link)) return;
     // What was seen makes it less likely, and takes the most time to know.
-    if (weight_of(link, settings_) <= 0) return;
     link.features[seen_empty] = share_seen_empty(from, to, seen_, kind_.radius);
-    if (link.features[seen_empty] > settings_.seen_empty_max || weight_of(link, settings_) <= 0) return;
+    if (link.features[seen_empty] > settings_.seen_empty_max || !is_likely(link)) return;
     link.features[obstruction] = obstruction_of(link, from, to);
-    if (weight_of(link, settings_) <= 0) return;
-    links_.push_back(link);
+    if (is_likely(link)) links_.push_back(link);
+  }
+
+  // Weighs a link by the features that are known so far.
+  bool is_likely(Link& link) const {
+    link.weight = weight_of(link, settings_);
+    return link.weight > 0;
   }
 
   // Near the ends are the tube's own other pieces, and what a neighbour's centre line runs on.
@@ -214,13 +224,6 @@ const LinkFeatures& LinkWeights::of(LinkKind kind) const {
       break;
   }
   return junction;
-}
-
-double weight_of(const Link& link, const LinkSettings& settings) {
-  const LinkFeatures& weights = learned_weights.of(link.kind);
-  return prior(link.kind, settings) + ends_taken(link.kind) * std::inner_product(weights.begin(),
-                                                                                 weights.end(),
-                                                                                 link.features.begin(), 0.0);
 }
 
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,

@@ -82,6 +82,7 @@ struct Link {
   LinkTarget to;
   double gap;  ///< m, in between
   LinkFeatures features;
+  double weight = 0;  ///< the logarithm of the odds that it is true, for all of its ends together
 };
 
 /// The links that there may be between fragments of tubes of the known radius, length and number of
@@ -90,8 +91,5 @@ struct Link {
 /// likeliest.
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
                              const TubeKind& kind, const LinkSettings& settings);
-
-/// The logarithm of the odds that a link is true, for all of its ends together.
-double weight_of(const Link& link, const LinkSettings& settings);
 
 }  // namespace tanglebin

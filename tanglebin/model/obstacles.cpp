@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tanglebin/model/voxel_key.hpp"
+#include "tanglebin/model/voxel.hpp"
 
 namespace tanglebin {
 
@@ -13,7 +13,7 @@ using Eigen::Vector3i;
 Obstacles::Obstacles(const std::vector<Fragment>& fragments, double radius) : diameter_(2 * radius) {
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     for (const Vector3d& node : fragments[i].nodes) {
-      const Vector3i cell = cell_of(node);
+      const Vector3i cell = voxel_at(node, diameter_);
       for (int x = -1; x <= 1; ++x) {
         for (int y = -1; y <= 1; ++y) {
           for (int z = -1; z <= 1; ++z) around_[voxel_key(cell + Vector3i(x, y, z))].push_back({node, i});
@@ -24,7 +24,7 @@ Obstacles::Obstacles(const std::vector<Fragment>& fragments, double radius) : di
 }
 
 double Obstacles::overlap(const Vector3d& axis, std::size_t first, std::size_t second) const {
-  const auto found = around_.find(voxel_key(cell_of(axis)));
+  const auto found = around_.find(voxel_key(voxel_at(axis, diameter_)));
   if (found == around_.end()) return 0;
   double nearest = diameter_ * diameter_;  // squared, m²
   for (const Node& node : found->second) {
@@ -32,10 +32,6 @@ double Obstacles::overlap(const Vector3d& axis, std::size_t first, std::size_t s
     nearest = std::min(nearest, (node.position - axis).squaredNorm());
   }
   return 1 - std::sqrt(nearest) / diameter_;
-}
-
-Vector3i Obstacles::cell_of(const Vector3d& position) const {
-  return (position / diameter_).array().floor().cast<int>();
 }
 
 }  // namespace tanglebin

@@ -25,8 +25,6 @@ private:
     std::size_t fragment;
   };
 
-  Eigen::Vector3i cell_of(const Eigen::Vector3d& position) const;
-
   double diameter_;
   std::unordered_map<std::uint64_t, std::vector<Node>> around_;  // cells, a diameter wide, and next to them
 };

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "tanglebin/model/voxel_key.hpp"
+#include "tanglebin/model/voxel.hpp"
 
 namespace tanglebin {
 namespace {
@@ -53,7 +53,7 @@ VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, double size) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) continue;
     const Vector3d point = points[i].cast<double>();
-    const Vector3i key = (point / size).array().floor().cast<int>();
+    const Vector3i key = voxel_at(point, size);
     const auto [found, is_new] = at.try_emplace(voxel_key(key), grid.voxels.size());
     if (is_new) grid.voxels.push_back({key});
     Voxel& voxel = grid.voxels[found->second];
