@@ -40,13 +40,14 @@ Branch branch_along(const LineTree& line, const Path& path, double radius) {
   return {start, (place_along(line, path, seen_to * radius) - start).normalized()};
 }
 
-// Halfway between the places at which two branches, drawn on backwards, are nearest to each other.
+// Halfway between the places at which two branches, drawn on both ways, are nearest to each other.
 Vector3d meeting_place(const Branch& a, const Branch& b, double radius) {
-  constexpr double length = 2 * back_max;  // enough for branches at a right angle
-  const Vector3d way_a = -length * radius * a.direction;
-  const Vector3d way_b = -length * radius * b.direction;
-  const SegmentPair nearest = closest_points(a.start, a.start + way_a, b.start, b.start + way_b);
-  return (a.start + nearest.s * way_a + b.start + nearest.t * way_b) / 2;
+  constexpr double length = 1000;  // radii: as good as without end
+  const Vector3d way_a = length * radius * a.direction;
+  const Vector3d way_b = length * radius * b.direction;
+  const auto [distance, s, t] =
+      closest_points(a.start - way_a, a.start + way_a, b.start - way_b, b.start + way_b);
+  return (a.start + (2 * s - 1) * way_a + b.start + (2 * t - 1) * way_b) / 2;
 }
 
 // How far along a path the place is that is nearest to a point; none where that is too far from either.
