@@ -43,6 +43,14 @@ std::optional<std::int64_t> parse_billionths(std::string_view text) {
   return billionths;
 }
 
+std::optional<double> parse_length(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  if (!is_number || !std::isfinite(value) || value <= 0) return std::nullopt;
+  return value;
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (std::size_t end = text.find(separator); end != std::string_view::npos; end = text.find(separator)) {
@@ -89,15 +97,25 @@ std::uint64_t parse_hexadecimal(std::string_view text, const std::string& option
 std::vector<double> parse_lengths(std::string_view text, const std::string& option) {
   std::vector<double> lengths;
   for (const std::string_view part : split(text, ',')) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-    const bool is_number = error == std::errc() && end == part.data() + part.size();
-    if (!is_number || !std::isfinite(value) || value <= 0) {
-      throw InputError({"", 0, option}, quoted(part), "a positive number");
-    }
-    lengths.push_back(value);
+    const std::optional<double> length = parse_length(part);
+    if (!length) throw InputError({"", 0, option}, quoted(part), "a positive number");
+    lengths.push_back(*length);
   }
   return lengths;
+}
+
+SegmentTree parse_tree(std::string_view text, const std::string& option) {
+  SegmentTree tree;
+  for (const std::string_view part : split(text, ',')) {
+    const std::size_t colon = std::min(part.find(':'), part.size());
+    const auto nodes = parse_pair(part.substr(0, colon), '-');
+    const auto length = parse_length(part.substr(std::min(colon + 1, part.size())));
+    if (!nodes || !length)
+      throw InputError({"", 0, option}, quoted(part), "a segment and its length, m, such as 1-2:0.3");
+    tree.push_back({nodes->first, nodes->second, *length});
+  }
+  validate(tree, option);
+  return tree;
 }
 
 std::vector<double> parse_ratios(std::string_view text, const std::string& option) {

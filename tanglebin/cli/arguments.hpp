@@ -10,6 +10,7 @@
 
 #include "tanglebin/dataset/safe_file.hpp"
 #include "tanglebin/dataset/shard.hpp"
+#include "tanglebin/model/segment_tree.hpp"
 
 namespace tanglebin::cli {
 
@@ -40,6 +41,10 @@ std::uint64_t parse_hexadecimal(std::string_view text, const std::string& option
 
 /// "0.4" or "0.4,0.5": positive numbers. Throws InputError naming `option` for anything else.
 std::vector<double> parse_lengths(std::string_view text, const std::string& option);
+
+/// "1-2:0.3,1-3:0.1": segments between nodes and how long they are. Throws InputError naming `option` for
+/// anything else.
+SegmentTree parse_tree(std::string_view text, const std::string& option);
 
 /// "0.1,0.3" or "0.1:1.0:0.1" (first:last:step, both ends in it): the double nearest to each decimal number,
 /// ascending. Throws InputError naming `option` for anything else: a ratio that is not in (0, 1] or has more

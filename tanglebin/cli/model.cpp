@@ -40,26 +40,36 @@ struct ModelArguments {
   std::string bin = "paper";
   std::string scanner = "paper";
   std::string radius = fmt::format("{}", TubeKind().radius);
-  std::string length = fmt::format("{}", TubeKind().length);
-  int junctions = TubeKind().junctions;
+  std::string length = fmt::format("{}", TubeKind().length());
+  std::vector<std::string> trees;
   std::optional<std::string> debug_directory;
   bool json = false;
 };
+
+// Of each kind of tubes, or one for all.
+std::vector<SegmentTree> known_segments(const ModelArguments& arguments) {
+  std::vector<SegmentTree> segments;
+  for (const std::string& tree : arguments.trees) segments.push_back(parse_tree(tree, "--tree"));
+  if (!segments.empty()) return segments;
+  for (const double length : parse_lengths(arguments.length, "--length"))
+    segments.push_back({{1, 2, length}});
+  return segments;
+}
 
 KnownScene known_scene(const ModelArguments& arguments, const PointCloud& cloud) {
   KnownScene known{.bin = bin_preset(arguments.bin), .camera = camera_preset(arguments.scanner)};
   const std::vector<double> radii = arguments.radius == "auto"
                                         ? std::vector{estimate_radius(cloud, known, arguments.cloud)}
                                         : parse_lengths(arguments.radius, "--radius");
-  const std::vector<double> lengths = parse_lengths(arguments.length, "--length");
-  if (lengths.size() != 1 && lengths.size() != radii.size())
-    throw InputError({"", 0, "--length"}, fmt::format("{} lengths", lengths.size()),
+  const std::vector<SegmentTree> segments = known_segments(arguments);
+  if (segments.size() != 1 && segments.size() != radii.size()) {
+    const std::string what = arguments.trees.empty() ? "length" : "tree";
+    throw InputError({"", 0, "--" + what}, fmt::format("{} {}s", segments.size(), what),
                      fmt::format("one, or one for each radius: {}", radii.size()));
-  known.kinds.clear();
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    const double length = lengths.size() == 1 ? lengths[0] : lengths[i];
-    known.kinds.push_back({.radius = radii[i], .length = length, .junctions = arguments.junctions});
   }
+  known.kinds.clear();
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    known.kinds.push_back({.radius = radii[i], .segments = segments[segments.size() == 1 ? 0 : i]});
   return known;
 }
 
@@ -178,14 +188,15 @@ void add_model(CLI::App& app) {
           "Radius of the tubes, m; one for each kind of tubes: 0.008,0.0125; auto estimates one from the "
           "cloud")
       ->capture_default_str();
+  CLI::Option* const length = command->add_option("--length", arguments->length,
+                                                  "Length of each tube, m; or one for each radius: 0.4,0.5");
+  length->capture_default_str();
   command
-      ->add_option("--length", arguments->length,
-                   "Length of each tube, m, its branches included; or one for each radius: 0.4,0.5")
-      ->capture_default_str();
-  command
-      ->add_option("--junctions", arguments->junctions,
-                   "Junctions of each tube at most: 0 for chains, more for trees (method axis)")
-      ->capture_default_str();
+      ->add_option(
+          "--tree", arguments->trees,
+          "Tubes that branch: the segments between their junctions and ends, and how long these are, "
+          "m: 1-2:0.3,1-3:0.1,1-4:0.1; or one option for each radius (method axis)")
+      ->excludes(length);
   command->add_option("--debug-dir", arguments->debug_directory,
                       "Directory for a picture of what each step left");
   command->add_flag("--json", arguments->json, "Print the steps as JSON");

@@ -1,7 +1,7 @@
 #include "tanglebin/experiment/run.hpp"
 
 #include <algorithm>
-#include <map>
+#include <utility>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/picked.hpp"
@@ -11,21 +11,11 @@
 namespace tanglebin {
 namespace {
 
-// Named nodes at which three segments or more meet.
-int junctions(const TubeSpec& spec) {
-  std::map<int, int> segments_at;
-  for (const Segment& segment : spec.segments) {
-    ++segments_at[segment.from];
-    ++segments_at[segment.to];
-  }
-  return static_cast<int>(
-      std::ranges::count_if(segments_at, [](const auto& node) { return node.second > 2; }));
-}
-
 TubeKind known_kind(const TubeSpec& spec) {
-  double length = 0;
-  for (const Segment& segment : spec.segments) length += segment.length;
-  return {.radius = spec.radius, .length = length, .junctions = junctions(spec)};
+  TubeKind kind{.radius = spec.radius, .segments = {}};
+  for (const Segment& segment : spec.segments)
+    kind.segments.push_back({segment.from, segment.to, segment.length});
+  return kind;
 }
 
 PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int32_t> labels) {
@@ -45,9 +35,9 @@ KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
     const auto same = std::ranges::find(known.kinds, kind.radius, &TubeKind::radius);
     if (same == known.kinds.end()) {
       known.kinds.push_back(kind);
-    } else {
-      same->length = std::max(same->length, kind.length);
-      same->junctions = std::max(same->junctions, kind.junctions);
+    } else if (std::pair(kind.segments.size(), kind.length()) >
+               std::pair(same->segments.size(), same->length())) {
+      *same = kind;
     }
   }
   return known;

@@ -29,9 +29,8 @@ struct RunId {
   auto operator<=>(const RunId&) const = default;
 };
 
-/// What the recipe of a case tells of its scene: the bin, the camera, and of each kind of tubes radius,
-/// length and junctions; kinds of one radius are taken for one, as long and with as many junctions as the
-/// most of them.
+/// What the recipe of a case tells of its scene: the bin, the camera, and of each kind of tubes the radius
+/// and the segments; kinds of one radius are taken for the one of the most segments, of these the longest.
 KnownScene known_scene(const Recipe& recipe, const CaseId& id);
 
 /// Models the tubes of a run's case, whose bin, camera, radius and length the recipe tells. The model's seed

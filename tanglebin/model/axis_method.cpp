@@ -61,7 +61,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   clock.end_step("vote", total(result.kinds, number_of_votes), "votes");
 
   for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
-    steps.fragments = find_fragments(steps.votes, kind.radius, kind.junctions > 0, settings.fragment);
+    steps.fragments = find_fragments(steps.votes, kind.radius, kind.branches(), settings.fragment);
   });
   clock.end_step("fragment", total(result.kinds, [](const auto& steps) { return steps.fragments.size(); }),
                  "fragments");

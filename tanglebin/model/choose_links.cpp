@@ -5,91 +5,87 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <random>
+#include <unordered_map>
 #include <utility>
 
+#include "tanglebin/model/assemble.hpp"
 #include "tanglebin/model/matching.hpp"
 
 namespace tanglebin {
 namespace {
 
-/// What is known of a piece of a tube.
-struct Piece {
-  double length;  // m
+double length_max(const TubeKind& kind, const LinkSettings& settings) {
+  return kind.length() * (1 + settings.length_tolerance);
+}
+
+int ends_max(const TubeKind& kind, const LinkSettings& settings) {
+  return count_ends(kind.segments) + settings.ends_tolerance;
+}
+
+/// A part of a tube: a fragment, or several with the links between them.
+struct Part {
+  double length;  ///< m
   int ends;
+  std::uint64_t links;  ///< the sum of their numbers
+  double cost;          ///< by which its shape makes it less likely, as a logarithm of odds; 0 for chains
 };
 
-/// The tubes that links make of fragments.
-class Tubes {
-public:
-  Tubes(const std::vector<Fragment>& fragments, const TubeKind& kind, const LinkSettings& settings)
-      : sets_(fragments.size()),
-        length_max_(kind.length * (1 + settings.length_tolerance)),
-        arm_min_(kind.length * settings.arm_min),
-        ends_(kind.junctions + 2),
-        ends_max_(ends_ + settings.ends_tolerance) {
-    pieces_.reserve(fragments.size());
-    for (const Fragment& fragment : fragments) {
-      pieces_.push_back({fragment.length, static_cast<int>(fragment.ends.size())});
-    }
-  }
-
-  // Whether a link leaves the tube open, and no longer than known and with no more ends than its junctions
-  // give it. An arm that is missing has a length too.
-  bool allow(const Link& link) {
-    const std::size_t first = sets_.find_set(link.fragment);
-    const std::size_t second = sets_.find_set(link.to.fragment);
-    if (first == second) return false;
-    const Piece piece = joined(pieces_[first], pieces_[second], link);
-    const double missing = arm_min_ * std::max(0, ends_ - piece.ends);
-    return piece.length + missing <= length_max_ && piece.ends <= ends_max_;
-  }
-
-  void join(const Link& link) {
-    const std::size_t first = sets_.find_set(link.fragment);
-    const std::size_t second = sets_.find_set(link.to.fragment);
-    const Piece piece = joined(pieces_[first], pieces_[second], link);
-    sets_.union_set(first, second);
-    pieces_[sets_.find_set(first)] = piece;
-  }
-
-private:
-  static Piece joined(const Piece& first, const Piece& second, const Link& link) {
-    return {first.length + link.gap + second.length, first.ends + second.ends - ends_taken(link.kind)};
-  }
-
-  boost::disjoint_sets_with_storage<> sets_;
-  double length_max_;
-  double arm_min_;
-  int ends_;
-  int ends_max_;
-  std::vector<Piece> pieces_;  // the tube that a set stands for
-};
-
-/// What links there may be between some fragments, and how heavy they are.
+/// What can be chosen from.
 struct Candidates {
   const std::vector<Fragment>& fragments;
-  const std::vector<Link>& links;          ///< the heaviest first
-  const std::vector<WeightedPair>& pairs;  ///< a link's two ends as vertices, and its weight
-  std::size_t vertices;
+  const std::vector<Link>& links;  ///< the heaviest first
   const TubeKind& kind;
   const LinkSettings& settings;
+  std::vector<WeightedPair> pairs = {};  ///< a link's two ends as vertices, and its weight
+  std::size_t vertices = 0;
+  std::vector<std::uint64_t> numbers = {};  ///< of links, random: no two sets of links have one sum
+  std::vector<Part> alone = {};             ///< the fragments
 };
+
+// A part that lacks much of its tree is one of which much is hidden or, where that is less, none at all.
+double shape_cost(const Candidates& candidates, const std::vector<std::size_t>& fragments,
+                  const std::vector<std::size_t>& chosen) {
+  const TubeKind& kind = candidates.kind;
+  const SegmentTree seen =
+      segments_of(assembled_line(candidates.fragments, fragments, candidates.links, chosen, kind.radius));
+  const double length = total_length(seen);
+  const double missing = std::min(length, std::max(0.0, kind.length() - length));
+  return misfit(seen, kind.segments) / (candidates.settings.misfit_unit * kind.radius) +
+         missing / (candidates.settings.missing_unit * kind.radius);
+}
 
 /// Links of which no two share an end, and that together make possible tubes only.
 class Selection {
 public:
-  explicit Selection(const Candidates& candidates)
+  /// Shape costs by Part::links, of what was weighed before.
+  using Costs = std::unordered_map<std::uint64_t, double>;
+
+  Selection(const Candidates& candidates, Costs& costs)
       : candidates_(&candidates),
-        tubes_(candidates.fragments, candidates.kind, candidates.settings),
+        costs_(&costs),
+        length_max_(length_max(candidates.kind, candidates.settings)),
+        ends_max_(ends_max(candidates.kind, candidates.settings)),
+        tubes_(candidates.fragments.size()),
+        parts_(candidates.alone),
         used_(candidates.vertices) {}
 
-  /// Takes a link whose ends are free where that makes possible tubes, and says whether it does.
+  /// Takes a link whose ends are free where the tube that it makes is possible, and likelier than its two
+  /// parts, and says whether it does.
   bool take(std::size_t link) {
-    if (!tubes_.allow(candidates_->links[link])) return false;
-    tubes_.join(candidates_->links[link]);
-    const auto& [first, second, weight] = candidates_->pairs[link];
-    used_[first] = used_[second] = 1;
-    weight_ += weight;
+    const std::size_t first = tubes_.find_set(candidates_->links[link].fragment);
+    const std::size_t second = tubes_.find_set(candidates_->links[link].to.fragment);
+    if (first == second) return false;
+    Part tube = joined(first, second, link);
+    if (tube.length > length_max_ || tube.ends > ends_max_) return false;
+    if (candidates_->kind.branches()) tube.cost = cost_of(tube, first, second, link);
+    const auto& [from, to, weight] = candidates_->pairs[link];
+    const double gain = weight + parts_[first].cost + parts_[second].cost - tube.cost;
+    if (gain <= 0) return false;
+    tubes_.union_set(first, second);
+    parts_[tubes_.find_set(first)] = tube;
+    used_[from] = used_[to] = 1;
+    weight_ += gain;
     taken_.push_back(link);
     return true;
   }
@@ -102,6 +98,7 @@ public:
   }
 
   const std::vector<std::size_t>& taken() const { return taken_; }
+  /// Of the links together, less what shapes cost.
   double weight() const { return weight_; }
 
 private:
@@ -110,8 +107,34 @@ private:
     return (used_[pair.first] | used_[pair.second]) == 0;
   }
 
+  Part joined(std::size_t first, std::size_t second, std::size_t link) const {
+    const Part& a = parts_[first];
+    const Part& b = parts_[second];
+    const auto& [kind, fragment, end, to, gap, features, weight] = candidates_->links[link];
+    return {a.length + gap + b.length, a.ends + b.ends - ends_taken(kind),
+            a.links + b.links + candidates_->numbers[link], 0};
+  }
+
+  double cost_of(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
+    const auto weighed = costs_->find(tube.links);
+    if (weighed != costs_->end()) return weighed->second;
+    std::vector<std::size_t> fragments;
+    for (std::size_t i = 0; i < candidates_->fragments.size(); ++i) {
+      const std::size_t part = tubes_.find_set(i);
+      if (part == first || part == second) fragments.push_back(i);
+    }
+    std::vector<std::size_t> chosen = taken_;
+    chosen.push_back(link);
+    std::ranges::sort(chosen);
+    return (*costs_)[tube.links] = shape_cost(*candidates_, fragments, chosen);
+  }
+
   const Candidates* candidates_;
-  Tubes tubes_;
+  Costs* costs_;
+  double length_max_;  // m
+  int ends_max_;
+  boost::disjoint_sets_with_storage<> tubes_;
+  std::vector<Part> parts_;         // the one that a set stands for
   std::vector<std::uint8_t> used_;  // whether a vertex is: bytes are quicker to read than bits
   std::vector<std::size_t> taken_;
   double weight_ = 0;
@@ -119,26 +142,30 @@ private:
 
 // Goes on to a heavier selection as long as there is one that has a certain link, what can be kept beside
 // that, and the heaviest of the others.
-Selection exchanged(Selection best, const std::vector<std::size_t>& all, const Candidates& candidates) {
+Selection exchanged(const Selection& none, Selection best, const std::vector<std::size_t>& all) {
   constexpr double rounding = 1e-9;
-  const Selection none(candidates);
+  const auto heaviest_first = [](std::vector<std::size_t> links) {
+    std::ranges::sort(links);
+    return links;
+  };
+  std::vector<std::size_t> kept = heaviest_first(best.taken());
   std::size_t in_vain = 0;  // links tried since the last exchange
   for (std::size_t i = 0; in_vain < all.size(); i = (i + 1) % all.size()) {
     Selection other = none;
     other.take(i);
-    other.take_possible(best.taken());
+    other.take_possible(kept);
     other.take_possible(all);
     const bool is_better = other.weight() > best.weight() + rounding;
-    if (is_better) best = std::move(other);
     in_vain = is_better ? 0 : in_vain + 1;
+    if (!is_better) continue;
+    best = std::move(other);
+    kept = heaviest_first(best.taken());
   }
   return best;
 }
 
 // The links that make one of the tubes impossible: of each such tube the weakest.
-std::vector<std::size_t> impossible_links(const std::vector<std::size_t>& matching,
-                                          const Candidates& candidates) {
-  Selection possible(candidates);
+std::vector<std::size_t> impossible_links(const std::vector<std::size_t>& matching, Selection possible) {
   std::vector<std::size_t> impossible;
   for (const std::size_t i : matching) {
     if (!possible.take(i)) impossible.push_back(i);
@@ -148,13 +175,42 @@ std::vector<std::size_t> impossible_links(const std::vector<std::size_t>& matchi
 
 // A matching of greatest weight between the ends in which every tube is possible: what makes one impossible
 // is given up, and the rest matched again.
-std::vector<std::size_t> possible_matching(const Candidates& candidates) {
+std::vector<std::size_t> possible_matching(const Candidates& candidates, const Selection& none) {
   std::vector<WeightedPair> pairs = candidates.pairs;
   for (;;) {
     std::vector<std::size_t> matching = heaviest_matching(candidates.vertices, pairs);
-    const std::vector<std::size_t> impossible = impossible_links(matching, candidates);
+    const std::vector<std::size_t> impossible = impossible_links(matching, none);
     if (impossible.empty()) return matching;
     for (const std::size_t i : impossible) pairs[i].weight = 0;
+  }
+}
+
+// The graph has a vertex for each end, and one more that stands for the junction that the end may lead to.
+void add_graph(Candidates& candidates) {
+  std::vector<std::size_t> ends_before{0};
+  for (const Fragment& fragment : candidates.fragments)
+    ends_before.push_back(ends_before.back() + fragment.ends.size());
+  const std::size_t ends = ends_before.back();
+  candidates.vertices = 2 * ends;
+  candidates.pairs.reserve(candidates.links.size());
+  for (const Link& link : candidates.links) {
+    const std::size_t from = ends_before[link.fragment] + link.end;
+    const bool leads_to_junction = link.kind == LinkKind::junction;
+    const std::size_t to = leads_to_junction ? ends + from : ends_before[link.to.fragment] + *link.to.end;
+    candidates.pairs.push_back({from, to, link.weight});
+  }
+}
+
+void add_parts(Candidates& candidates) {
+  std::mt19937_64 random;
+  for (std::size_t i = 0; i < candidates.links.size(); ++i) candidates.numbers.push_back(random());
+  for (std::size_t i = 0; i < candidates.fragments.size(); ++i) {
+    const Fragment& fragment = candidates.fragments[i];
+    const int ends = static_cast<int>(fragment.ends.size());
+    // What has too many ends is in no tube but its own, whatever that costs.
+    const bool is_weighed =
+        candidates.kind.branches() && ends <= ends_max(candidates.kind, candidates.settings);
+    candidates.alone.push_back({fragment.length, ends, 0, is_weighed ? shape_cost(candidates, {i}, {}) : 0});
   }
 }
 
@@ -162,27 +218,19 @@ std::vector<std::size_t> possible_matching(const Candidates& candidates) {
 
 std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
                                       const TubeKind& kind, const LinkSettings& settings) {
-  // The graph has a vertex for each end, and one more that stands for the junction that the end may lead to.
-  std::vector<std::size_t> ends_before{0};
-  for (const Fragment& fragment : fragments) ends_before.push_back(ends_before.back() + fragment.ends.size());
-  const std::size_t ends = ends_before.back();
-  std::vector<WeightedPair> pairs;
-  pairs.reserve(links.size());
-  for (const Link& link : links) {
-    const std::size_t from = ends_before[link.fragment] + link.end;
-    const bool leads_to_junction = link.kind == LinkKind::junction;
-    const std::size_t to = leads_to_junction ? ends + from : ends_before[link.to.fragment] + *link.to.end;
-    pairs.push_back({from, to, link.weight});
-  }
-  const Candidates candidates{fragments, links, pairs, 2 * ends, kind, settings};
+  Candidates candidates{fragments, links, kind, settings};
+  add_graph(candidates);
+  add_parts(candidates);
   std::vector<std::size_t> all(links.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
 
-  Selection selection(candidates);
+  Selection::Costs costs;
+  const Selection none(candidates, costs);
+  Selection selection = none;
   // Three ends meet at a junction: a matching, which pairs them, finds chains only.
-  if (kind.junctions == 0) selection.take_possible(possible_matching(candidates));
+  if (!kind.branches()) selection.take_possible(possible_matching(candidates, none));
   selection.take_possible(all);
-  std::vector<std::size_t> chosen = exchanged(std::move(selection), all, candidates).taken();
+  std::vector<std::size_t> chosen = exchanged(none, std::move(selection), all).taken();
   std::ranges::sort(chosen);
   return chosen;
 }

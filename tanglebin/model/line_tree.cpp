@@ -33,4 +33,17 @@ std::size_t Paths::after(const std::vector<std::size_t>& path) const {
   return around[0] == path[path.size() - 2] ? around[1] : around[0];
 }
 
+SegmentTree segments_of(const LineTree& line) {
+  const Paths paths(line);
+  SegmentTree segments;
+  segments.reserve(paths.all().size());
+  for (const std::vector<std::size_t>& path : paths.all()) {
+    double length = 0;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i)
+      length += (line.nodes[path[i + 1]] - line.nodes[path[i]]).norm();
+    segments.push_back({static_cast<int>(path.front()), static_cast<int>(path.back()), length});
+  }
+  return segments;
+}
+
 }  // namespace tanglebin

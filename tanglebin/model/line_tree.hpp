@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "tanglebin/model/segment_tree.hpp"
+
 namespace tanglebin {
 
 /// A centre line that may branch: a tree.
@@ -33,5 +35,8 @@ private:
   std::vector<std::vector<std::size_t>> neighbours_;
   std::vector<std::vector<std::size_t>> paths_;
 };
+
+/// A line by the lengths of its paths alone.
+SegmentTree segments_of(const LineTree& line);
 
 }  // namespace tanglebin

@@ -124,8 +124,9 @@ public:
         seen_(seen),
         kind_(kind),
         settings_(settings),
+        length_max_(kind.length() * (1 + settings.length_tolerance)),
         obstacles_(fragments, kind.radius) {
-    if (kind.junctions == 0) return;
+    if (!kind.branches()) return;
     for (std::size_t i = 0; i < fragments.size(); ++i) {
       places_.push_back(junction_places(fragments, i, kind.radius, settings.beyond_max));
     }
@@ -138,7 +139,7 @@ public:
       for (std::size_t j = 0; j < g.ends.size(); ++j) {
         const double gap = (g.ends[j].position - f.ends[i].position).norm();
         if (!may_span(gap, f, g)) continue;
-        take_if_likely({kind_.junctions > 0 ? LinkKind::tree_ends : LinkKind::chain_ends,
+        take_if_likely({kind_.branches() ? LinkKind::tree_ends : LinkKind::chain_ends,
                         first,
                         i,
                         {second, g.ends[j].node, j, g.ends[j].position},
@@ -175,7 +176,7 @@ public:
 
 private:
   bool may_span(double gap, const Fragment& first, const Fragment& second) const {
-    return first.length + gap + second.length <= kind_.length * (1 + settings_.length_tolerance);
+    return first.length + gap + second.length <= length_max_;
   }
 
   void take_if_likely(Link link, const FragmentEnd& from, const FragmentEnd& to) {
@@ -207,6 +208,7 @@ private:
   const RangeImage& seen_;
   const TubeKind& kind_;
   const LinkSettings& settings_;
+  double length_max_;  // m
   Obstacles obstacles_;
   std::vector<std::vector<JunctionPlace>> places_;  // of each fragment
   std::vector<Link> links_;
@@ -232,7 +234,7 @@ std::vector<Link> find_links(const std::vector<Fragment>& fragments, const Range
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     for (std::size_t j = 0; j < fragments.size(); ++j) {
       if (i < j) finder.between_ends(i, j);
-      if (i != j && kind.junctions > 0) finder.to_junction(i, j);
+      if (i != j && kind.branches()) finder.to_junction(i, j);
     }
   }
   return finder.found();

@@ -54,13 +54,16 @@ struct LinkSettings {
   double angle_max = 3.2;          ///< rad, α
   double length_tolerance = 0.03;  ///< of the known length, by which a tube may be too long
   int ends_tolerance = 1;          ///< ends that a tree may have too many: where noise made a branch
-  double arm_min = 0.1;            ///< of the known length, that an arm of a tree has at least
   double beyond_max = 3.2;         ///< radii, from the end of a fragment to a junction that is hidden
   double seen_empty_max = 0.25;    ///< share of the way between two ends that may be seen to be empty
   // Added to the log odds, since a fragment is more often a part of a tube than one by itself.
   double chain_prior = 16.0;
-  double tree_prior = 10.0;
-  double junction_prior = 8.0;
+  double tree_prior = 8.0;
+  double junction_prior = 9.0;
+  // Radii, of a tree that links make, that take one from the logarithm of its odds: of misfit() with the
+  // known tree, and of what it lacks of that.
+  double misfit_unit = 1.2;
+  double missing_unit = 3.2;
 };
 
 /// Where a link leads to.
@@ -85,10 +88,9 @@ struct Link {
   double weight = 0;  ///< the logarithm of the odds that it is true, for all of its ends together
 };
 
-/// The links that there may be between fragments of tubes of the known radius, length and number of
-/// junctions, the heaviest first: no turn sharper, no tube longer than the settings allow, and the space
-/// between was not seen to be empty. Where there may be junctions, of each end and other fragment the
-/// likeliest.
+/// The links that there may be between fragments of tubes of a kind, the heaviest first: no turn sharper, no
+/// tube longer than the settings allow, and the space between was not seen to be empty. Where tubes branch,
+/// of each end and other fragment the likeliest.
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
                              const TubeKind& kind, const LinkSettings& settings);
 

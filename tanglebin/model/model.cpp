@@ -44,15 +44,13 @@ void validate(const KnownScene& known) {
   std::set<double> radii;
   for (const TubeKind& kind : known.kinds) {
     check_positive(kind.radius, "radius");
-    check_positive(kind.length, "length");
+    validate(kind.segments, kind.branches() ? "tree" : "length");
     // Grids of cells as wide as a tube have no more cells than their indices can count.
     constexpr double thinnest = 1e-5;  // of the bin's length
     if (kind.radius < thinnest * known.bin.length)
       throw InputError({"", 0, "radius"}, fmt::format("{} m", kind.radius),
                        fmt::format("at least {:.4g} m, for a bin that is {} m long",
                                    thinnest * known.bin.length, known.bin.length));
-    if (kind.junctions < 0)
-      throw InputError({"", 0, "junctions"}, fmt::format("{}", kind.junctions), "0 or more");
     if (!radii.insert(kind.radius).second)
       throw InputError({"", 0, "radius"}, fmt::format("{} m a second time", kind.radius),
                        "kinds of tubes whose radii differ");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
+#include "tanglebin/model/segment_tree.hpp"
 #include "tanglebin/scan/camera.hpp"
 #include "tanglebin/settle/bin.hpp"
 #include "tanglebin/tube/tube.hpp"
@@ -14,9 +15,13 @@ namespace tanglebin {
 
 /// What is known of each tube of a kind.
 struct TubeKind {
-  double radius = 0.0125;  ///< m
-  double length = 0.5;     ///< m, along its centre line, branches included
-  int junctions = 0;       ///< 0 for a chain, at most so many for a tree
+  double radius = 0.0125;                ///< m
+  SegmentTree segments = {{1, 2, 0.5}};  ///< one for a chain, several for a tree
+
+  /// m, along its centre line, branches included.
+  double length() const { return total_length(segments); }
+  /// Whether it is a tree.
+  bool branches() const { return segments.size() > 1; }
 };
 
 /// What is known of a scene before its cloud is looked at.
@@ -27,7 +32,8 @@ struct KnownScene {
 };
 
 /// Throws InputError naming the field of a scene that is none: what bin and camera refuse, no kind, a radius
-/// or length that is not a finite positive number, a radius of two kinds or too small for the bin.
+/// that is not a finite positive number, segments that are no tree, a radius of two kinds or too small for
+/// the bin.
 void validate(const KnownScene& known);
 
 /// What a step of a method left, and how long it took.

@@ -59,7 +59,7 @@ PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, d
 
   // The joining step.
   const RangeImage seen(cloud, known.camera);
-  result.joins = join_cylinders(result.cylinders, seen, kind.length, settings.join);
+  result.joins = join_cylinders(result.cylinders, seen, kind.length(), settings.join);
   const std::vector<JoinedTube> tubes = joined_tubes(result.cylinders, result.joins, kind.radius);
   for (const JoinedTube& joined : tubes) model.tubes.push_back(joined.tube);
   clock.end_step("join", model.tubes.size(), "tubes");

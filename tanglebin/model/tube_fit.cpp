@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "tanglebin/model/junctions.hpp"
+#include "tanglebin/model/assemble.hpp"
 #include "tanglebin/model/line_tree.hpp"
 #include "tanglebin/tube/capsule.hpp"
 
@@ -19,66 +19,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
-/// The nodes that a fragment has in a line.
-struct FragmentNodes {
-  std::size_t first;
-  std::vector<std::size_t> ends;
-};
-
-// The fragment's centre line, out to its ends.
-FragmentNodes add_fragment(LineTree& line, const Fragment& fragment) {
-  const std::size_t offset = line.nodes.size();
-  line.nodes.insert(line.nodes.end(), fragment.nodes.begin(), fragment.nodes.end());
-  for (std::size_t node = 1; node < fragment.nodes.size(); ++node) {
-    line.edges.push_back({offset + fragment.parents[node], offset + node});
-  }
-  std::vector<std::size_t> end_nodes;
-  for (const FragmentEnd& end : fragment.ends) {
-    std::size_t node = offset + end.node;
-    if (std::ranges::find(end_nodes, node) != end_nodes.end()) {
-      // The second end of a fragment of one node.
-      line.edges.push_back({node, line.nodes.size()});
-      node = line.nodes.size();
-      line.nodes.emplace_back();
-    }
-    line.nodes[node] = end.position;
-    end_nodes.push_back(node);
-  }
-  return {offset, std::move(end_nodes)};
-}
-
-// The node of the line that a link leads to. A junction beyond an end is a new one, and from then on that
-// end.
-std::size_t target_node(LineTree& line, FragmentNodes& fragment, const Link& link) {
-  if (!link.to.end) return fragment.first + link.to.node;
-  std::size_t& end = fragment.ends[*link.to.end];
-  if (link.kind == LinkKind::junction) {
-    line.edges.push_back({end, line.nodes.size()});
-    end = line.nodes.size();
-    line.nodes.push_back(link.to.position);
-  }
-  return end;
-}
-
-LineTree assemble(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
-                  const std::vector<Link>& links, const std::vector<std::size_t>& chosen) {
-  LineTree line;
-  std::map<std::size_t, FragmentNodes> added;
-  for (const std::size_t member : members) added[member] = add_fragment(line, fragments[member]);
-  std::vector<std::size_t> of_members;
-  std::ranges::copy_if(chosen, std::back_inserter(of_members),
-                       [&](std::size_t i) { return added.contains(links[i].fragment); });
-  // Junctions first: a link to an end that has one beyond it starts from there.
-  std::stable_partition(of_members.begin(), of_members.end(),
-                        [&](std::size_t i) { return links[i].kind == LinkKind::junction; });
-  for (const std::size_t i : of_members) {
-    const Link& link = links[i];
-    const std::size_t target = target_node(line, added[link.to.fragment], link);
-    line.edges.push_back({added[link.fragment].ends[link.end], target});
-  }
-  return line;
-}
 
 // Ramer–Douglas–Peucker: marks the nodes of a path, between its first and last, that it needs to be this near
 // to all.
@@ -229,8 +169,8 @@ Tube tube_of(const LineTree& line, double radius) {
 Tube fit_tube(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
               const std::vector<Link>& links, const std::vector<std::size_t>& chosen,
               const std::vector<Eigen::Vector3f>& points, double radius, const TubeFitSettings& settings) {
-  LineTree line = simplified(with_junctions_drawn_back(assemble(fragments, members, links, chosen), radius),
-                             settings.tolerance * radius);
+  LineTree line =
+      simplified(assembled_line(fragments, members, links, chosen, radius), settings.tolerance * radius);
   const std::vector<Vector3d> fitted_to = some_points(fragments, members, points, settings.points_max);
   for (int i = 0; i < settings.iterations; ++i)
     improve(line, fitted_to, radius, settings.residual_max * radius);

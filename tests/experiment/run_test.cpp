@@ -60,11 +60,11 @@ TEST(KnownScene, HasEachKindOfTubesOfItsSet) {
   const KnownScene known = known_scene(recipe, {"A", 3, 1});
   ASSERT_EQ(known.kinds.size(), 2U);
   EXPECT_EQ(known.kinds[0].radius, 0.0125);
-  EXPECT_EQ(known.kinds[0].length, 0.6) << "the longest of those with this radius";
-  EXPECT_EQ(known.kinds[0].junctions, 0);
+  EXPECT_EQ(known.kinds[0].length(), 0.6) << "the longest of those with this radius";
+  EXPECT_FALSE(known.kinds[0].branches());
   EXPECT_EQ(known.kinds[1].radius, 0.008);
-  EXPECT_NEAR(known.kinds[1].length, 0.3, 1e-12);
-  EXPECT_EQ(known.kinds[1].junctions, 1);
+  EXPECT_NEAR(known.kinds[1].length(), 0.3, 1e-12);
+  EXPECT_EQ(count_ends(known.kinds[1].segments), 3);
 }
 
 TEST(ScoreModel, LooksAtThePointsThatTheFilterLeftAlone) {

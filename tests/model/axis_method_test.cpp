@@ -23,10 +23,9 @@ using test::paper_scene;
 using test::scanned;
 using testing::IsEmpty;
 
-AxisModel modelled(const PointCloud& cloud, int junctions = 0, double length = 0.5) {
+AxisModel modelled(const PointCloud& cloud, const SegmentTree& segments = {{1, 2, 0.5}}) {
   KnownScene known = paper_scene();
-  known.kinds[0].junctions = junctions;
-  known.kinds[0].length = length;
+  known.kinds[0].segments = segments;
   return model_by_axes(cloud, known, 1, 1);
 }
 
@@ -102,7 +101,7 @@ TEST(AxisMethod, FindsTubesOfSeveralRadii) {
                                    test::chain(4, 0.008, {{-0.1, -0.16, 0.034}, {-0.1, 0.05, 0.034}})};
   const PointCloud cloud = scanned(tubes);
   KnownScene known = paper_scene();
-  known.kinds = {{.radius = 0.008, .length = 0.4}, {.radius = 0.0125, .length = 0.4}};
+  known.kinds = {{.radius = 0.008, .segments = {{1, 2, 0.4}}}, {.radius = 0.0125, .segments = {{1, 2, 0.4}}}};
   const AxisModel found = model_by_axes(cloud, known, 1, 1);
   ASSERT_EQ(found.model.tubes.size(), 4U);
   EXPECT_GT(micro_recall(cloud, found), 0.999);
@@ -118,7 +117,7 @@ TEST(AxisMethod, FollowsATubeThatCrossesItselfInTheImage) {
                                                  {0.05, 0.12, 0.05},
                                                  {-0.02, 0.06, 0.06},
                                                  {0.0, -0.08, 0.06}})});
-  const AxisModel found = modelled(cloud, 0, 0.6);
+  const AxisModel found = modelled(cloud, {{1, 2, 0.6}});
   EXPECT_EQ(found.model.tubes.size(), 1U);
   EXPECT_GT(micro_recall(cloud, found), 0.999);
 }
@@ -132,11 +131,14 @@ TEST(AxisMethod, FindsATubeThatStandsUpright) {
   EXPECT_GT(micro_recall(cloud, found), 0.7);
 }
 
+// What is known of the star below.
+const SegmentTree star_segments = {{1, 2, 0.2}, {1, 3, 0.128}, {1, 4, 0.128}};
+
 TEST(AxisMethod, FindsJunctionsWhereThereMayBeSome) {
   const std::vector<Tube> tubes = {
       star({{0, 0, 0.0125}, {-0.2, 0, 0.0125}, {0.1, 0.08, 0.0125}, {0.1, -0.08, 0.0125}})};
   const PointCloud cloud = scanned(tubes);
-  const AxisModel found = modelled(cloud, 1);
+  const AxisModel found = modelled(cloud, star_segments);
   ASSERT_EQ(found.model.tubes.size(), 1U);
   EXPECT_EQ(micro_recall(cloud, found), 1);
   const Tube& tree = found.model.tubes[0];
@@ -155,7 +157,7 @@ TEST(AxisMethod, FindsJunctionsWhereThereMayBeSome) {
 TEST(AxisMethod, WritesTubesThatCanBeRead) {
   const std::vector<Tube> tubes = {
       star({{0, 0, 0.0125}, {-0.2, 0, 0.0125}, {0.1, 0.08, 0.0125}, {0.1, -0.08, 0.0125}})};
-  const AxisModel found = modelled(scanned(tubes), 1);
+  const AxisModel found = modelled(scanned(tubes), star_segments);
   std::stringstream text;
   write_configuration(text, found.model.tubes);
   EXPECT_EQ(read_configuration(text, "tubes.txt").size(), found.model.tubes.size());

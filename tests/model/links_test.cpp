@@ -69,9 +69,9 @@ TEST(Links, MakeNoTubeLongerThanItIs) {
   TubeKind kind;
   const std::vector<Fragment> fragments = {straight_fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
                                            straight_fragment({0, 0, 0.05}, {0.15, 0, 0.05})};
-  kind.length = 0.36;
+  kind.segments[0].length = 0.36;
   EXPECT_THAT(links_of(fragments, kind), testing::Not(IsEmpty()));
-  kind.length = 0.33;
+  kind.segments[0].length = 0.33;
   EXPECT_THAT(links_of(fragments, kind), IsEmpty());
 }
 

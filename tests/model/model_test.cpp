@@ -161,8 +161,11 @@ TEST_P(ModelTubes, RefusesASceneThatIsNone) {
   EXPECT_THAT(complaint({}, scene, 1),
               HasSubstr("radius: found 1e-09 m, expected at least 5.5e-06 m, for a bin that is 0.55 m long"));
   scene = paper_scene();
-  scene.kinds[0].length = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(complaint({}, scene, 1), HasSubstr("length: found nan"));
+  scene.kinds[0].segments = {{1, 2, std::numeric_limits<double>::quiet_NaN()}};
+  EXPECT_THAT(complaint({}, scene, 1),
+              HasSubstr("length: found nan m from node 1 to 2, expected a positive"));
+  scene.kinds[0].segments = {{1, 2, 0.3}, {1, 3, 0.1}, {3, 2, 0.1}};
+  EXPECT_THAT(complaint({}, scene, 1), HasSubstr("tree: found a segment to node 2, which closes a loop"));
   scene = paper_scene();
   scene.kinds.push_back(scene.kinds[0]);
   EXPECT_THAT(complaint({}, scene, 1),
