@@ -21,6 +21,7 @@ struct Surroundings {
   std::vector<Vector3d> votes;  ///< m, relative to the end
   Vector3d mean;                ///< of the votes, m, relative to the end
   Matrix3d spread;              ///< of the votes, m²
+  Vector3d normal;              ///< mean of the normals n
   Matrix3d normals;             ///< mean of n nᵀ
 };
 
@@ -29,7 +30,8 @@ Surroundings surroundings(const Vector3d& end, const std::vector<std::size_t>& p
   std::vector<Vector3d> near;
   Vector3d sum = Vector3d::Zero();
   Matrix3d products = Matrix3d::Zero();
-  Matrix3d normals = Matrix3d::Zero();
+  Vector3d sum_of_normals = Vector3d::Zero();
+  Matrix3d products_of_normals = Matrix3d::Zero();
   for (const std::size_t point : points) {
     const Vector3d d = votes.votes[point].cast<double>() - end;
     if (d.squaredNorm() > reach * reach) continue;
@@ -37,16 +39,28 @@ Surroundings surroundings(const Vector3d& end, const std::vector<std::size_t>& p
     near.push_back(d);
     sum += d;
     products += d * d.transpose();
-    normals += normal * normal.transpose();
+    sum_of_normals += normal;
+    products_of_normals += normal * normal.transpose();
   }
   const auto count = static_cast<double>(near.size());
   const Vector3d mean = sum / count;
-  return {std::move(near), mean, products / count - mean * mean.transpose(), normals / count};
+  return {std::move(near), mean, products / count - mean * mean.transpose(), sum_of_normals / count,
+          products_of_normals / count};
+}
+
+// Of a tube that is seen end-on its cap alone may have votes: all in one place, from normals that go all
+// ways.
+bool is_cap(const Surroundings& around, double radius, const FragmentSettings& settings) {
+  if (std::sqrt(around.spread.trace()) > settings.spot_max * radius) return false;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(around.normals, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0] > settings.cap_min;
 }
 
 // The axis is where the votes are spread out, and square to the normals: a short piece that shows much of its
-// circumference has a direction too.
-Vector3d direction(const Surroundings& around, double unit) {
+// circumference has a direction too. Behind a cap the tube goes on away from the normals.
+Vector3d direction(const Surroundings& around, double radius, const FragmentSettings& settings) {
+  if (is_cap(around, radius, settings)) return -around.normal.normalized();
+  const double unit = settings.step * radius;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(around.normals - around.spread / (unit * unit));
   return solver.eigenvectors().col(0);
 }
@@ -77,12 +91,11 @@ std::vector<std::size_t> leaves(const std::vector<std::size_t>& parents) {
 
 std::vector<FragmentEnd> ends_of(const Fragment& fragment, const AxisVotes& votes, double radius,
                                  const FragmentSettings& settings) {
-  const double unit = settings.step * radius;
   std::vector<FragmentEnd> ends;
   for (const std::size_t leaf : leaves(fragment.parents)) {
     const Vector3d& end = fragment.nodes[leaf];
     const Surroundings around = surroundings(end, fragment.points, votes, settings.end_length * radius);
-    Vector3d outward = direction(around, unit);
+    Vector3d outward = direction(around, radius, settings);
     if (outward.dot(around.mean) > 0) outward = -outward;
     const double least = settings.extent_min * radius;
     ends.push_back({leaf, end + extent(around.votes, outward, least) * outward, outward});

@@ -13,6 +13,8 @@ struct FragmentSettings {
   double step = 0.4;         ///< radii, between the nodes of a centre line
   double branch_min = 1.6;   ///< radii; a shorter branch of a centre line is no branch
   double end_length = 1.6;   ///< radii, of the part of a fragment that gives the direction of its end
+  double spot_max = 0.12;    ///< radii, of the standard deviation of votes that are all in one place
+  double cap_min = 0.05;     ///< of the mean of n nᵀ over the normals n of a cap, the least eigenvalue
   double extent_min = 0.04;  ///< radii, from the last node of a centre line to its end
   double spread_max = 0.5;   ///< radii; votes are this near to their centre line, half of them at least
   int points_min = 8;        ///< a fragment of fewer points is none

@@ -79,6 +79,31 @@ TEST(Fragments, OfASlitKnowTheirDirectionFromTheNormals) {
   EXPECT_LT(found[0].ends[0].outward.dot(found[0].ends[1].outward), -0.99);
 }
 
+// A tube that leans a little away from the sensor above: of its cap each vote is its centre, and the normals
+// go all ways that the sensor sees.
+TEST(Fragments, OfACapGoOnAwayFromItsNormals) {
+  const Vector3d centre(0.05, 0, 0.1);
+  const Vector3d axis = Vector3d(0.1, 0.05, 1).normalized();
+  const Vector3d side = axis.cross(Vector3d::UnitX()).normalized();
+  AxisVotes votes;
+  constexpr int rings = 10;
+  constexpr int around = 30;
+  for (int i = 1; i < rings; ++i) {
+    for (int j = 0; j < around; ++j) {
+      const double polar = std::numbers::pi / 2 * i / rings;
+      const double azimuth = 2 * std::numbers::pi * j / around;
+      votes.votes.push_back(centre.cast<float>());
+      votes.normals.push_back(
+          (std::cos(polar) * axis + std::sin(polar) * (Eigen::AngleAxisd(azimuth, axis) * side))
+              .cast<float>());
+    }
+  }
+  const std::vector<Fragment> found = fragments_of(votes);
+  ASSERT_THAT(found, SizeIs(1));
+  ASSERT_THAT(found[0].ends, SizeIs(2));
+  for (const FragmentEnd& end : found[0].ends) EXPECT_GT(std::abs(end.outward.dot(axis)), 0.999);
+}
+
 TEST(Fragments, BranchWhereTubesDo) {
   AxisVotes votes;
   add_axis(votes, {-0.1, 0, 0.05}, {0.1, 0, 0.05});
