@@ -43,7 +43,8 @@ struct Candidates {
   std::vector<Part> alone = {};             ///< the fragments
 };
 
-// A part that lacks much of its tree is one of which much is hidden or, where that is less, none at all.
+// Of these fragments with the chosen links between them, a part of a tree. One that lacks much of its tree is
+// one of which much is hidden or, where that is less, none at all.
 double shape_cost(const Candidates& candidates, const std::vector<std::size_t>& fragments,
                   const std::vector<std::size_t>& chosen) {
   const TubeKind& kind = candidates.kind;

@@ -12,7 +12,7 @@ namespace tanglebin {
 /// Those of find_links() that together are the likeliest, with which every tube is open, no longer than
 /// known, and has no more ends than there can be: for chains a matching of greatest weight between the ends,
 /// for trees the heaviest links one after the other; then links are exchanged as long as the sum of the
-/// weights grows. Indices, ascending.
+/// weights, for trees less what shapes cost that do not fit the known segments, grows. Indices, ascending.
 std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
                                       const TubeKind& kind, const LinkSettings& settings);
 
