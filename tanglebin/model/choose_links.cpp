@@ -152,15 +152,15 @@ Selection exchanged(const Selection& none, Selection best, const std::vector<std
   std::vector<std::size_t> kept = heaviest_first(best.taken());
   std::size_t in_vain = 0;  // links tried since the last exchange
   for (std::size_t i = 0; in_vain < all.size(); i = (i + 1) % all.size()) {
+    ++in_vain;
     Selection other = none;
-    other.take(i);
+    if (!other.take(i)) continue;
     other.take_possible(kept);
     other.take_possible(all);
-    const bool is_better = other.weight() > best.weight() + rounding;
-    in_vain = is_better ? 0 : in_vain + 1;
-    if (!is_better) continue;
+    if (other.weight() <= best.weight() + rounding) continue;
     best = std::move(other);
     kept = heaviest_first(best.taken());
+    in_vain = 0;
   }
   return best;
 }

@@ -4,8 +4,8 @@
 
 namespace tanglebin {
 
-std::vector<std::vector<std::size_t>> neighbours_in(const LineTree& line) {
-  std::vector<std::vector<std::size_t>> neighbours(line.nodes.size());
+std::vector<Neighbours> neighbours_in(const LineTree& line) {
+  std::vector<Neighbours> neighbours(line.nodes.size());
   for (const auto& [first, second] : line.edges) {
     neighbours[first].push_back(second);
     neighbours[second].push_back(first);
@@ -29,7 +29,7 @@ void Paths::add_paths_from(std::size_t start) {
 }
 
 std::size_t Paths::after(const std::vector<std::size_t>& path) const {
-  const auto& around = neighbours_[path.back()];
+  const Neighbours& around = neighbours_[path.back()];
   return around[0] == path[path.size() - 2] ? around[1] : around[0];
 }
 

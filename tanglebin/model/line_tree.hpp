@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <vector>
 
@@ -15,8 +16,11 @@ struct LineTree {
   std::vector<std::array<std::size_t, 2>> edges;
 };
 
-/// Of each node those that an edge leads to.
-std::vector<std::vector<std::size_t>> neighbours_in(const LineTree& line);
+/// The nodes that edges lead to from one: two but for ends and junctions.
+using Neighbours = boost::container::small_vector<std::size_t, 3>;
+
+/// Of each node.
+std::vector<Neighbours> neighbours_in(const LineTree& line);
 
 /// The nodes of a line by what they are: ends and junctions are named, the others lie on paths between these.
 class Paths {
@@ -32,7 +36,7 @@ private:
   void add_paths_from(std::size_t start);
   std::size_t after(const std::vector<std::size_t>& path) const;
 
-  std::vector<std::vector<std::size_t>> neighbours_;
+  std::vector<Neighbours> neighbours_;
   std::vector<std::vector<std::size_t>> paths_;
 };
 
