@@ -15,8 +15,9 @@ struct TreeSegment {
 /// A tube's centre line by the lengths of its segments alone: one for a chain, more for a tree.
 using SegmentTree = std::vector<TreeSegment>;
 
-/// Throws InputError naming `field` for no segment, a length that is not a finite positive number, and for a
-/// segment that does not start at a node of an earlier one, or ends at one: then it is no tree.
+/// Throws InputError naming `field` for no segment, a length that is not a finite positive number, more than
+/// twelve segments at a node, and for a segment that does not start at a node of an earlier one, or ends at
+/// one: then it is no tree.
 void validate(const SegmentTree& tree, const std::string& field);
 
 /// m, of all segments together.

@@ -31,6 +31,9 @@ TEST(SegmentTree, IsOfSegmentsThatMakeATree) {
   EXPECT_THAT(complaint({}), HasSubstr("tree: found none, expected at least one segment"));
   EXPECT_THAT(complaint({{1, 2, 0.1}, {3, 4, 0.1}}), HasSubstr("found a segment from node 3, expected one"));
   EXPECT_THAT(complaint({{1, 2, 0.1}, {2, 1, 0.1}}), HasSubstr("node 1, which closes a loop"));
+  SegmentTree star;
+  for (int end = 2; end < 15; ++end) star.push_back({1, end, 0.1});
+  EXPECT_THAT(complaint(star), HasSubstr("found more segments at node 1, expected at most 12"));
   for (const double none : {0.0, -0.1, std::numeric_limits<double>::infinity()})
     EXPECT_THAT(complaint({{1, 2, none}}), HasSubstr("m from node 1 to 2, expected a positive number"));
 }
@@ -57,6 +60,29 @@ TEST(Misfit, IsWhatIsTooLong) {
   EXPECT_NEAR(misfit({{1, 2, 0.47}, {1, 3, 0.1}, {1, 4, 0.1}}, set_c), 0.02, 1e-12);
   EXPECT_NEAR(misfit({{1, 2, 0.3}, {1, 3, 0.1}, {1, 4, 0.1}, {2, 5, 0.12}, {2, 6, 0.15}}, set_c), 0.02,
               1e-12);
+}
+
+TEST(Misfit, IsTheLeastOfAllWaysAround) {
+  SegmentTree known;
+  SegmentTree seen;
+  for (int i = 1; i <= 12; ++i) {
+    known.push_back({0, i, 0.01 * i});
+    seen.push_back({0, i, 0.01 * (13 - i) + 0.001});
+  }
+  EXPECT_NEAR(misfit(seen, known), 0.012, 1e-12);
+}
+
+// A comb of twenty teeth, seen with all of them a little too long.
+TEST(Misfit, IsFoundForTreesOfManyJunctions) {
+  SegmentTree known;
+  SegmentTree seen;
+  for (int i = 0; i < 20; ++i) {
+    known.push_back({i, i + 1, 0.1});
+    known.push_back({i, 100 + i, 0.05});
+    seen.push_back({i, i + 1, 0.1});
+    seen.push_back({i, 100 + i, 0.051});
+  }
+  EXPECT_NEAR(misfit(seen, known), 0.02, 1e-9);
 }
 
 TEST(Misfit, IsHowFarJunctionsAreFromTheirDistance) {
