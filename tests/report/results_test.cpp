@@ -127,6 +127,12 @@ TEST_F(ResultsDirectory, NamesNoPictureOutsideOfIt) {
   expect_error("pictures.jsonl:1: truth: found '/other.png'", "below the results directory");
 }
 
+// Found by fuzzing: to ask whether there is a file of such a name is an error, not a no.
+TEST_F(ResultsDirectory, APictureWhoseNameIsTooLongIsNamed) {
+  change("pictures.jsonl", "pictures/paper-best-truth.png", "pictures/" + std::string(300, 'L'));
+  expect_error("pictures/LLL", "File name too long");
+}
+
 TEST_F(ResultsDirectory, TimesOfGenerationAreReadAsStrictly) {
   change("generation.jsonl", "\"settle\"", "\"sett\"");
   expect_error("generation.jsonl:1: ", "settle");
