@@ -15,14 +15,6 @@
 namespace tanglebin {
 namespace {
 
-double length_max(const TubeKind& kind, const LinkSettings& settings) {
-  return kind.length() * (1 + settings.length_tolerance);
-}
-
-int ends_max(const TubeKind& kind, const LinkSettings& settings) {
-  return count_ends(kind.segments) + settings.ends_tolerance;
-}
-
 /// A part of a tube: a fragment, or several with the links between them.
 struct Part {
   double length;  ///< m
@@ -37,6 +29,8 @@ struct Candidates {
   const std::vector<Link>& links;  ///< the heaviest first
   const TubeKind& kind;
   const LinkSettings& settings;
+  double tube_length_max = length_max(kind, settings);  ///< m
+  int tube_ends_max = count_ends(kind.segments) + settings.ends_tolerance;
   std::vector<WeightedPair> pairs = {};  ///< a link's two ends as vertices, and its weight
   std::size_t vertices = 0;
   std::vector<std::uint64_t> numbers = {};  ///< of links, random: no two sets of links have one sum
@@ -65,8 +59,6 @@ public:
   Selection(const Candidates& candidates, Costs& costs)
       : candidates_(&candidates),
         costs_(&costs),
-        length_max_(length_max(candidates.kind, candidates.settings)),
-        ends_max_(ends_max(candidates.kind, candidates.settings)),
         tubes_(candidates.fragments.size()),
         parts_(candidates.alone),
         used_(candidates.vertices) {}
@@ -78,7 +70,7 @@ public:
     const std::size_t second = tubes_.find_set(candidates_->links[link].to.fragment);
     if (first == second) return false;
     Part tube = joined(first, second, link);
-    if (tube.length > length_max_ || tube.ends > ends_max_) return false;
+    if (tube.length > candidates_->tube_length_max || tube.ends > candidates_->tube_ends_max) return false;
     if (candidates_->kind.branches()) tube.cost = cost_of(tube, first, second, link);
     const auto& [from, to, weight] = candidates_->pairs[link];
     const double gain = weight + parts_[first].cost + parts_[second].cost - tube.cost;
@@ -132,8 +124,6 @@ private:
 
   const Candidates* candidates_;
   Costs* costs_;
-  double length_max_;  // m
-  int ends_max_;
   boost::disjoint_sets_with_storage<> tubes_;
   std::vector<Part> parts_;         // the one that a set stands for
   std::vector<std::uint8_t> used_;  // whether a vertex is: bytes are quicker to read than bits
@@ -209,8 +199,7 @@ void add_parts(Candidates& candidates) {
     const Fragment& fragment = candidates.fragments[i];
     const int ends = static_cast<int>(fragment.ends.size());
     // What has too many ends is in no tube but its own, whatever that costs.
-    const bool is_weighed =
-        candidates.kind.branches() && ends <= ends_max(candidates.kind, candidates.settings);
+    const bool is_weighed = candidates.kind.branches() && ends <= candidates.tube_ends_max;
     candidates.alone.push_back({fragment.length, ends, 0, is_weighed ? shape_cost(candidates, {i}, {}) : 0});
   }
 }

@@ -124,7 +124,7 @@ public:
         seen_(seen),
         kind_(kind),
         settings_(settings),
-        length_max_(kind.length() * (1 + settings.length_tolerance)),
+        length_max_(length_max(kind, settings)),
         obstacles_(fragments, kind.radius) {
     if (!kind.branches()) return;
     for (std::size_t i = 0; i < fragments.size(); ++i) {
@@ -226,6 +226,10 @@ const LinkFeatures& LinkWeights::of(LinkKind kind) const {
       break;
   }
   return junction;
+}
+
+double length_max(const TubeKind& kind, const LinkSettings& settings) {
+  return kind.length() * (1 + settings.length_tolerance);
 }
 
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,

@@ -88,6 +88,9 @@ struct Link {
   double weight = 0;  ///< the logarithm of the odds that it is true, for all of its ends together
 };
 
+/// m, the longest that a tube of the kind may seem.
+double length_max(const TubeKind& kind, const LinkSettings& settings);
+
 /// The links that there may be between fragments of tubes of a kind, the heaviest first: no turn sharper, no
 /// tube longer than the settings allow, and the space between was not seen to be empty. Where tubes branch,
 /// of each end and other fragment the likeliest.

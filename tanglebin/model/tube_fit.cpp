@@ -2,12 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
-#include <map>
-#include <utility>
 
 #include "tanglebin/model/assemble.hpp"
 #include "tanglebin/model/line_tree.hpp"
