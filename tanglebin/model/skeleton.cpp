@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -135,11 +137,11 @@ private:
 
   int level(std::size_t voxel) const { return static_cast<int>(distances_[voxel] / step_); }
 
-  // A node for all voxels of this level that are connected with this one; its parent is the first of the
-  // nodes below that it touches.
+  // A node for all voxels of this level that are connected with this one; its parent is the last of the nodes
+  // below that it touches. (From an earlier one a second line would run beside the first.)
   void add_node(Skeleton& skeleton, std::size_t first) {
     const std::size_t node = skeleton.nodes.size();
-    std::size_t parent = none;
+    std::optional<std::size_t> parent;
     Vector3d sum = Vector3d::Zero();
     std::size_t count = 0;
     std::vector<std::size_t> members{first};
@@ -149,14 +151,14 @@ private:
       sum += voxel.sum;
       count += voxel.points;
       for (const std::size_t neighbour : voxel.neighbours) {
-        if (level(neighbour) < level(first)) parent = std::min(parent, nodes_[neighbour]);
+        if (level(neighbour) < level(first)) parent = std::max(parent, std::optional(nodes_[neighbour]));
         if (level(neighbour) != level(first) || nodes_[neighbour] != none) continue;
         nodes_[neighbour] = node;
         members.push_back(neighbour);
       }
     }
     skeleton.nodes.emplace_back(sum / static_cast<double>(count));
-    skeleton.parents.push_back(parent == none ? 0 : parent);
+    skeleton.parents.push_back(parent.value_or(0));
   }
 
   const std::vector<Voxel>& voxels_;
@@ -173,7 +175,8 @@ public:
       : whole_(whole),
         branch_min_(branch_min),
         below_(whole.nodes.size(), 0),
-        next_(whole.nodes.size(), none) {
+        next_(whole.nodes.size(), none),
+        kept_(whole.nodes.size()) {
     // Children come after their parents, so that all below a node is known before it.
     for (std::size_t node = whole.nodes.size(); node-- > 1;) {
       const std::size_t parent = whole.parents[node];
@@ -183,19 +186,21 @@ public:
     }
   }
 
-  Skeleton pruned() const {
-    Skeleton kept;
-    std::vector<std::size_t> kept_as(whole_.nodes.size(), none);
-    for (std::size_t node = 0; node < whole_.nodes.size(); ++node) {
-      const std::size_t parent = whole_.parents[node];
-      const bool is_root = node == 0;
-      if (!is_root && kept_as[parent] == none) continue;
-      if (!is_root && next_[parent] != node && !is_branch(node, kept.nodes)) continue;
-      kept_as[node] = kept.nodes.size();
-      kept.nodes.push_back(whole_.nodes[node]);
-      kept.parents.push_back(is_root ? 0 : kept_as[parent]);
+  Skeleton pruned() {
+    keep(0);
+    // A branch starts from one that is longer.
+    for (const std::size_t node : branches()) {
+      if (kept_[whole_.parents[node]] && is_apart(tip_of(node))) keep(node);
     }
-    return kept;
+    Skeleton result;
+    std::vector<std::size_t> new_index(whole_.nodes.size());
+    for (std::size_t node = 0; node < whole_.nodes.size(); ++node) {
+      if (!kept_[node]) continue;
+      new_index[node] = result.nodes.size();
+      result.nodes.push_back(whole_.nodes[node]);
+      result.parents.push_back(new_index[whole_.parents[node]]);
+    }
+    return result;
   }
 
 private:
@@ -204,24 +209,38 @@ private:
     return below_[node] + (whole_.nodes[node] - whole_.nodes[whole_.parents[node]]).norm();
   }
 
-  bool is_branch(std::size_t node, const std::vector<Vector3d>& kept) const {
-    if (through(node) < branch_min_) return false;
-    std::size_t tip = node;
-    while (next_[tip] != none) tip = next_[tip];
-    const auto is_apart = [&](const Vector3d& other) {
-      return (whole_.nodes[tip] - other).norm() > branch_min_;
-    };
-    if (!std::ranges::all_of(kept, is_apart)) return false;
-    for (std::size_t other = next_[whole_.parents[node]]; other != none; other = next_[other]) {
-      if (!is_apart(whole_.nodes[other])) return false;
+  // The first nodes of those that are long enough, the longest first.
+  std::vector<std::size_t> branches() const {
+    std::vector<std::size_t> result;
+    for (std::size_t node = 1; node < whole_.nodes.size(); ++node) {
+      if (next_[whole_.parents[node]] != node && through(node) >= branch_min_) result.push_back(node);
+    }
+    std::ranges::stable_sort(result, std::greater<>(), [&](std::size_t node) { return through(node); });
+    return result;
+  }
+
+  std::size_t tip_of(std::size_t node) const {
+    while (next_[node] != none) node = next_[node];
+    return node;
+  }
+
+  bool is_apart(std::size_t tip) const {
+    for (std::size_t node = 0; node < whole_.nodes.size(); ++node) {
+      if (kept_[node] && (whole_.nodes[tip] - whole_.nodes[node]).norm() <= branch_min_) return false;
     }
     return true;
+  }
+
+  // From a node down to the tip.
+  void keep(std::size_t node) {
+    for (; node != none; node = next_[node]) kept_[node] = true;
   }
 
   const Skeleton& whole_;
   double branch_min_;
   std::vector<double> below_;      // m, the longest way down from each node
   std::vector<std::size_t> next_;  // where it goes first; none at a tip
+  std::vector<bool> kept_;
 };
 
 }  // namespace

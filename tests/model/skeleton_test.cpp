@@ -1,11 +1,13 @@
 #include "tanglebin/model/skeleton.hpp"
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 
 namespace tanglebin {
 namespace {
@@ -20,6 +22,12 @@ constexpr double branch_min = 0.02;
 void add_line(std::vector<Vector3f>& points, const Vector3d& from, const Vector3d& to) {
   constexpr int count = 400;
   for (int i = 0; i <= count; ++i) points.push_back((from + (to - from) * i / count).cast<float>());
+}
+
+// Of votes, m.
+Vector3f scatter(std::mt19937_64& random) {
+  std::uniform_real_distribution<float> offset(-0.001F, 0.001F);
+  return {offset(random), offset(random), offset(random)};
 }
 
 double length_of(const Skeleton& skeleton) {
@@ -75,6 +83,21 @@ TEST(Skeletons, HaveTheBranchesThatAreLongEnough) {
   EXPECT_EQ(leaves_of(found[0]), 3U);
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(leaves_of(find_skeletons(points, voxel, step, infinity).at(0)), 2U);
+}
+
+TEST(Skeletons, BranchAsOftenAsTheCurvesHoweverTheseLie) {
+  const Vector3d axis = Vector3d(1, 2, 3).normalized();
+  std::mt19937_64 random;
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, axis);
+    std::vector<Vector3f> points;
+    for (const Vector3d& end : {Vector3d(-0.1, 0, 0), Vector3d(0.08, 0.04, 0), Vector3d(0.08, -0.04, 0)})
+      add_line(points, Vector3d::Zero(), turn * end);
+    for (Vector3f& point : points) point += scatter(random);
+    const std::vector<Skeleton> found = find_skeletons(points, voxel, step, branch_min);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(leaves_of(found[0]), 3U) << degrees << " degrees";
+  }
 }
 
 TEST(Skeletons, OfAPointAreOneNode) {
