@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <random>
@@ -90,6 +91,18 @@ public:
     }
   }
 
+  /// Of some of the taken links, those that are not in the tubes that another one would join.
+  std::vector<std::size_t> without_tubes_of(std::size_t link, const std::vector<std::size_t>& taken) {
+    const std::size_t first = tubes_.find_set(candidates_->links[link].fragment);
+    const std::size_t second = tubes_.find_set(candidates_->links[link].to.fragment);
+    std::vector<std::size_t> others;
+    std::ranges::copy_if(taken, std::back_inserter(others), [&](std::size_t i) {
+      const std::size_t tube = tubes_.find_set(candidates_->links[i].fragment);
+      return tube != first && tube != second;
+    });
+    return others;
+  }
+
   const std::vector<std::size_t>& taken() const { return taken_; }
   /// Of the links together, less what shapes cost.
   double weight() const { return weight_; }
@@ -131,9 +144,19 @@ private:
   double weight_ = 0;
 };
 
+// With what can be kept, and the heaviest of the others.
+Selection completed(Selection selection, const std::vector<std::size_t>& kept,
+                    const std::vector<std::size_t>& all) {
+  selection.take_possible(kept);
+  selection.take_possible(all);
+  return selection;
+}
+
 // Goes on to a heavier selection as long as there is one that has a certain link, what can be kept beside
-// that, and the heaviest of the others.
-Selection exchanged(const Selection& none, Selection best, const std::vector<std::size_t>& all) {
+// that, and the heaviest of the others. One link alone rarely mends a tree that is made of two trees' parts:
+// there the two tubes that it joins are also tried anew.
+Selection exchanged(const Selection& none, Selection best, const std::vector<std::size_t>& all,
+                    bool with_branches) {
   constexpr double rounding = 1e-9;
   const auto heaviest_first = [](std::vector<std::size_t> links) {
     std::ranges::sort(links);
@@ -143,10 +166,13 @@ Selection exchanged(const Selection& none, Selection best, const std::vector<std
   std::size_t in_vain = 0;  // links tried since the last exchange
   for (std::size_t i = 0; in_vain < all.size(); i = (i + 1) % all.size()) {
     ++in_vain;
-    Selection other = none;
-    if (!other.take(i)) continue;
-    other.take_possible(kept);
-    other.take_possible(all);
+    Selection with_link = none;
+    if (!with_link.take(i)) continue;
+    Selection other = completed(with_link, kept, all);
+    if (with_branches) {
+      Selection anew = completed(with_link, best.without_tubes_of(i, kept), all);
+      if (anew.weight() > other.weight()) other = std::move(anew);
+    }
     if (other.weight() <= best.weight() + rounding) continue;
     best = std::move(other);
     kept = heaviest_first(best.taken());
@@ -220,7 +246,7 @@ std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, co
   // Three ends meet at a junction: a matching, which pairs them, finds chains only.
   if (!kind.branches()) selection.take_possible(possible_matching(candidates, none));
   selection.take_possible(all);
-  std::vector<std::size_t> chosen = exchanged(none, std::move(selection), all).taken();
+  std::vector<std::size_t> chosen = exchanged(none, std::move(selection), all, kind.branches()).taken();
   std::ranges::sort(chosen);
   return chosen;
 }

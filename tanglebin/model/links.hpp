@@ -62,8 +62,8 @@ struct LinkSettings {
   double junction_prior = 9.0;
   // Radii, of a tree that links make, that take one from the logarithm of its odds: of misfit() with the
   // known tree, and of what it lacks of that.
-  double misfit_unit = 1.2;
-  double missing_unit = 3.2;
+  double misfit_unit = 0.9;
+  double missing_unit = 4.0;
 };
 
 /// Where a link leads to.

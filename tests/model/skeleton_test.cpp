@@ -1,9 +1,9 @@
 #include "tanglebin/model/skeleton.hpp"
 
-#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <numbers>
