@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -137,11 +136,11 @@ private:
 
   int level(std::size_t voxel) const { return static_cast<int>(distances_[voxel] / step_); }
 
-  // A node for all voxels of this level that are connected with this one; its parent is the last of the nodes
-  // below that it touches. (From an earlier one a second line would run beside the first.)
+  // A node for all voxels of this level that are connected with this one; its parent is the first of the
+  // nodes below that it touches.
   void add_node(Skeleton& skeleton, std::size_t first) {
     const std::size_t node = skeleton.nodes.size();
-    std::optional<std::size_t> parent;
+    std::size_t parent = none;
     Vector3d sum = Vector3d::Zero();
     std::size_t count = 0;
     std::vector<std::size_t> members{first};
@@ -151,14 +150,14 @@ private:
       sum += voxel.sum;
       count += voxel.points;
       for (const std::size_t neighbour : voxel.neighbours) {
-        if (level(neighbour) < level(first)) parent = std::max(parent, std::optional(nodes_[neighbour]));
+        if (level(neighbour) < level(first)) parent = std::min(parent, nodes_[neighbour]);
         if (level(neighbour) != level(first) || nodes_[neighbour] != none) continue;
         nodes_[neighbour] = node;
         members.push_back(neighbour);
       }
     }
     skeleton.nodes.emplace_back(sum / static_cast<double>(count));
-    skeleton.parents.push_back(parent.value_or(0));
+    skeleton.parents.push_back(parent == none ? 0 : parent);
   }
 
   const std::vector<Voxel>& voxels_;
