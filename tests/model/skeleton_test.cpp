@@ -7,7 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
+
+#include "tanglebin/base/random.hpp"
 
 namespace tanglebin {
 namespace {
@@ -25,9 +26,9 @@ void add_line(std::vector<Vector3f>& points, const Vector3d& from, const Vector3
 }
 
 // Of votes, m.
-Vector3f scatter(std::mt19937_64& random) {
-  std::uniform_real_distribution<float> offset(-0.001F, 0.001F);
-  return {offset(random), offset(random), offset(random)};
+Vector3f scatter(Rng& rng) {
+  const auto offset = [&] { return static_cast<float>(uniform_real(rng, -0.001, 0.001)); };
+  return {offset(), offset(), offset()};
 }
 
 double length_of(const Skeleton& skeleton) {
@@ -87,13 +88,13 @@ TEST(Skeletons, HaveTheBranchesThatAreLongEnough) {
 
 TEST(Skeletons, BranchAsOftenAsTheCurvesHoweverTheseLie) {
   const Vector3d axis = Vector3d(1, 2, 3).normalized();
-  std::mt19937_64 random;
+  Rng rng;
   for (int degrees = 0; degrees < 360; ++degrees) {
     const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, axis);
     std::vector<Vector3f> points;
     for (const Vector3d& end : {Vector3d(-0.1, 0, 0), Vector3d(0.08, 0.04, 0), Vector3d(0.08, -0.04, 0)})
       add_line(points, Vector3d::Zero(), turn * end);
-    for (Vector3f& point : points) point += scatter(random);
+    for (Vector3f& point : points) point += scatter(rng);
     const std::vector<Skeleton> found = find_skeletons(points, voxel, step, branch_min);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(leaves_of(found[0]), 3U) << degrees << " degrees";
