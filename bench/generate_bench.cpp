@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "paper_sets.hpp"
+#include "bench/paper_sets.hpp"
 #include "tanglebin/dataset/case_files.hpp"
-#include "tanglebin/dataset/safe_file.hpp"
-#include "tanglebin/dataset/simulate.hpp"
+#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/simulate/simulate.hpp"
 
 namespace tanglebin {
 namespace {

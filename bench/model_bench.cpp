@@ -11,10 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "paper_sets.hpp"
-#include "tanglebin/dataset/simulate.hpp"
-#include "tanglebin/model/model.hpp"
+#include "bench/paper_sets.hpp"
+#include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/report/published_figures.hpp"
+#include "tanglebin/scan/scan_output.hpp"
+#include "tanglebin/simulate/simulate.hpp"
 
 namespace tanglebin {
 namespace {
@@ -49,7 +50,8 @@ using StepSeconds = std::map<std::string, double>;
 StepSeconds step_seconds(const Scans& scans, Method method, double ratio) {
   StepSeconds seconds;
   for (const PointCloud& cloud : scans.clouds) {
-    for (const Step& step : model_tubes(cloud, scans.known, method, ratio, 1, "cloud").steps) {
+    for (const Step& step :
+         model_tubes(cloud, scans.known, {.method = method, .ratio = ratio, .seed = 1}).steps) {
       seconds[step.name] += step.seconds / cases_timed;
     }
   }

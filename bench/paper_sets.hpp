@@ -3,7 +3,7 @@
 #include <numbers>
 #include <string>
 
-#include "tanglebin/dataset/recipe.hpp"
+#include "tanglebin/recipe/recipe.hpp"
 
 namespace tanglebin {
 

@@ -3,18 +3,21 @@
 // experiment uses; the time is that of modelling all twelve.
 
 #include <benchmark/benchmark.h>
+#include <fmt/core.h>
 
+#include <cmath>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "paper_sets.hpp"
-#include "tanglebin/dataset/simulate.hpp"
-#include "tanglebin/model/paper_method.hpp"
+#include "bench/paper_sets.hpp"
+#include "tanglebin/model/paper/paper_method.hpp"
+#include "tanglebin/model/parameters.hpp"
+#include "tanglebin/scan/scan_output.hpp"
 #include "tanglebin/score/score.hpp"
+#include "tanglebin/simulate/simulate.hpp"
 
 namespace tanglebin {
 namespace {
@@ -61,38 +64,6 @@ void model_with(benchmark::State& state, const PaperSettings& settings) {
   state.counters["recall_B"] = sum_b;
 }
 
-struct Parameter {
-  std::string name;
-  std::function<void(PaperSettings&, double factor)> scale;
-};
-
-std::vector<Parameter> parameters() {
-  const auto times = [](int& value, double factor) { value = static_cast<int>(value * factor); };
-  return {
-      {"filter.margin", [](PaperSettings& s, double f) { s.filter.margin *= f; }},
-      {"filter.normal_neighbours", [=](PaperSettings& s, double f) { times(s.filter.normal_neighbours, f); }},
-      {"segment.neighbours", [=](PaperSettings& s, double f) { times(s.segment.neighbours, f); }},
-      {"segment.angle_max", [](PaperSettings& s, double f) { s.segment.angle_max *= f; }},
-      {"segment.curvature_max", [](PaperSettings& s, double f) { s.segment.curvature_max *= f; }},
-      {"segment.points_min", [=](PaperSettings& s, double f) { times(s.segment.points_min, f); }},
-      {"fit.distance_max", [](PaperSettings& s, double f) { s.fit.distance_max *= f; }},
-      {"fit.normal_weight", [](PaperSettings& s, double f) { s.fit.normal_weight *= f; }},
-      {"fit.radius_tolerance", [](PaperSettings& s, double f) { s.fit.radius_tolerance *= f; }},
-      {"fit.sample_distance", [](PaperSettings& s, double f) { s.fit.sample_distance *= f; }},
-      {"fit.iterations_max", [=](PaperSettings& s, double f) { times(s.fit.iterations_max, f); }},
-      {"fit.points_min", [=](PaperSettings& s, double f) { times(s.fit.points_min, f); }},
-      {"fit.gap_max", [](PaperSettings& s, double f) { s.fit.gap_max *= f; }},
-      {"fit.claim_distance", [](PaperSettings& s, double f) { s.fit.claim_distance *= f; }},
-      {"fit.trim", [](PaperSettings& s, double f) { s.fit.trim *= f; }},
-      {"fit.length_min", [](PaperSettings& s, double f) { s.fit.length_min *= f; }},
-      {"join.distance_max", [](PaperSettings& s, double f) { s.join.distance_max *= f; }},
-      {"join.angle_max", [](PaperSettings& s, double f) { s.join.angle_max *= f; }},
-      {"join.hidden_radius", [=](PaperSettings& s, double f) { times(s.join.hidden_radius, f); }},
-      {"join.length_tolerance", [](PaperSettings& s, double f) { s.join.length_tolerance *= f; }},
-      {"label.distance_max", [](PaperSettings& s, double f) { s.label.distance_max *= f; }},
-  };
-}
-
 void register_run(const std::string& name, const PaperSettings& settings) {
   benchmark::RegisterBenchmark(name.c_str(),
                                [settings](benchmark::State& state) { model_with(state, settings); })
@@ -102,11 +73,14 @@ void register_run(const std::string& name, const PaperSettings& settings) {
 
 const bool registered = [] {
   register_run("defaults", {});
-  for (const Parameter& parameter : parameters()) {
+  for (const auto& [name, value] : parameters({})) {
+    if (!name.starts_with("paper.")) continue;
     for (const auto& [suffix, factor] : {std::pair{"/half", 0.5}, std::pair{"/twice", 2.0}}) {
-      PaperSettings settings;
-      parameter.scale(settings, factor);
-      register_run(parameter.name + suffix, settings);
+      const bool is_count = value == std::floor(value);
+      const double scaled = is_count ? std::floor(value * factor) : value * factor;
+      ModelSettings settings;
+      set_parameter(settings, fmt::format("{}={}", name, scaled), name);
+      register_run(name + suffix, settings.paper);
     }
   }
   return true;

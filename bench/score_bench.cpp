@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "tanglebin/base/random.hpp"
+#include "tanglebin/generate/generate.hpp"
 #include "tanglebin/score/assign.hpp"
 #include "tanglebin/score/score_clouds.hpp"
 #include "tanglebin/score/score_tubes.hpp"
-#include "tanglebin/tube/generate.hpp"
-#include "tests/tube/example_tubes.hpp"
+#include "tests/geometry/example_tubes.hpp"
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "tanglebin/base/random.hpp"
+#include "tanglebin/generate/generate.hpp"
+#include "tanglebin/geometry/mass_properties.hpp"
 #include "tanglebin/settle/settle.hpp"
 #include "tanglebin/settle/spawn.hpp"
-#include "tanglebin/tube/generate.hpp"
-#include "tanglebin/tube/mass_properties.hpp"
 
 namespace {
 

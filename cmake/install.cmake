@@ -1,13 +1,32 @@
-# cmake --install: the program, the library, its headers and the package file that find_package(tanglebin) reads.
+# cmake --install: the program, the libraries, their public headers and the package file that find_package(tanglebin) reads.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tanglebin)
 
+# What programs outside may include; tests/package compiles each by itself.
+set(public_headers
+  base/error base/random
+  geometry/bin geometry/camera geometry/capsule geometry/intersect geometry/labels geometry/mass_properties geometry/ray
+  geometry/tube
+  cloud/cloud cloud/images cloud/label_colors
+  io/configuration io/images io/pcd io/ply io/read_cloud
+  generate/generate generate/tube_spec
+  settle/overlap settle/settle settle/spawn
+  scan/scan scan/scan_output scan/scanner scan/sensor
+  recipe/case_id recipe/recipe
+  simulate/simulate simulate/world_sdf
+  model/model_tubes model/parameters model/axis/axis_settings model/paper/paper_settings model/scene/known_scene model/scene/model model/scene/segment_tree
+  model/scene/shared_settings
+  score/score score/score_clouds score/score_tubes)
+foreach(header IN LISTS public_headers)
+  get_filename_component(room ${header} DIRECTORY)
+  install(FILES ${PROJECT_SOURCE_DIR}/tanglebin/${header}.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tanglebin/${room})
+endforeach()
+
 install(TARGETS tanglebin_program)
-install(TARGETS tanglebin EXPORT tanglebinTargets)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/tanglebin DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.hpp" PATTERN cli EXCLUDE)
+install(TARGETS tanglebin_core tanglebin_axis tanglebin_paper tanglebin_modelling tanglebin_simulation tanglebin_datasets
+        EXPORT tanglebinTargets)
 install(EXPORT tanglebinTargets NAMESPACE tanglebin:: DESTINATION ${package_dir})
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tanglebinConfig.cmake.in

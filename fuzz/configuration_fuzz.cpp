@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/io/configuration.hpp"
 
 namespace {
 

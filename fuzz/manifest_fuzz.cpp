@@ -16,7 +16,7 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/catalogue.hpp"
 #include "tanglebin/dataset/finished_cases.hpp"
-#include "tanglebin/dataset/recipe.hpp"
+#include "tanglebin/recipe/recipe.hpp"
 
 namespace {
 

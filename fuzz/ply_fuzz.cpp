@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cloud/ply.hpp"
+#include "tanglebin/io/ply.hpp"
 
 // Any bytes are a cloud or an InputError, and a cloud that was read comes back the same from what is written.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

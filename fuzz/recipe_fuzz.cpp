@@ -8,8 +8,8 @@
 #include <string>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/dataset/case_id.hpp"
-#include "tanglebin/dataset/recipe.hpp"
+#include "tanglebin/recipe/case_id.hpp"
+#include "tanglebin/recipe/recipe.hpp"
 
 namespace {
 

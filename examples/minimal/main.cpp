@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "tanglebin/base/random.hpp"
+#include "tanglebin/generate/generate.hpp"
 #include "tanglebin/scan/scanner.hpp"
-#include "tanglebin/tube/generate.hpp"
 
 int main() {
   tanglebin::TubeSpec spec;  // 0.5 m long, of 5 to 10 cylinders

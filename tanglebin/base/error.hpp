@@ -30,4 +30,15 @@ private:
   std::string problem_;
 };
 
+/// Calls `call`; an InputError that names no file gets this one.
+template <typename Call>
+auto with_file(const std::string& file, Call call) {
+  try {
+    return call();
+  } catch (const InputError& error) {
+    if (!error.place().file.empty()) throw;
+    throw InputError({file, error.place().line, error.place().field}, error.problem());
+  }
+}
+
 }  // namespace tanglebin

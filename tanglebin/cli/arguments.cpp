@@ -9,15 +9,14 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/text.hpp"
 
 namespace tanglebin::cli {
 namespace {
 
 std::optional<int> parse_positive(std::string_view text) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || value < 1) return std::nullopt;
-  return value;
+  const auto value = to_number<int>(text);
+  return value && *value >= 1 ? value : std::nullopt;
 }
 
 // The two numbers around a separator.
@@ -34,35 +33,16 @@ std::optional<std::pair<int, int>> parse_pair(std::string_view text, char separa
 constexpr double billion = 1e9;
 
 std::optional<std::int64_t> parse_billionths(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !(value > 0 && value <= 1))
-    return std::nullopt;
-  const std::int64_t billionths = std::llround(value * billion);
-  if (static_cast<double>(billionths) / billion != value) return std::nullopt;
+  const auto value = to_number<double>(text);
+  if (!value || !(*value > 0 && *value <= 1)) return std::nullopt;
+  const std::int64_t billionths = std::llround(*value * billion);
+  if (static_cast<double>(billionths) / billion != *value) return std::nullopt;
   return billionths;
 }
 
 std::optional<double> parse_length(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc() && end == text.data() + text.size();
-  if (!is_number || !std::isfinite(value) || value <= 0) return std::nullopt;
-  return value;
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (std::size_t end = text.find(separator); end != std::string_view::npos; end = text.find(separator)) {
-    parts.push_back(text.substr(0, end));
-    text.remove_prefix(end + 1);
-  }
-  parts.push_back(text);
-  return parts;
-}
-
-std::string quoted(std::string_view text) {
-  return '"' + std::string(text) + '"';
+  const auto value = to_number<double>(text);
+  return value && std::isfinite(*value) && *value > 0 ? value : std::nullopt;
 }
 
 }  // namespace
@@ -79,7 +59,7 @@ Range parse_range(std::string_view text, const std::string& option) {
   if (const auto one = parse_positive(text)) return {*one, *one};
   const auto two = parse_pair(text, '-');
   if (!two || two->first > two->second) {
-    throw InputError({"", 0, option}, quoted(text), "a number or a range such as 1-20");
+    throw InputError({"", 0, option}, excerpt(text), "a number or a range such as 1-20");
   }
   return {two->first, two->second};
 }
@@ -89,7 +69,7 @@ std::uint64_t parse_hexadecimal(std::string_view text, const std::string& option
   constexpr int hexadecimal = 16;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, hexadecimal);
   if (error != std::errc{} || end != text.data() + text.size()) {
-    throw InputError({"", 0, option}, quoted(text), "a hexadecimal number of at most 16 digits");
+    throw InputError({"", 0, option}, excerpt(text), "a hexadecimal number of at most 16 digits");
   }
   return value;
 }
@@ -98,7 +78,7 @@ std::vector<double> parse_lengths(std::string_view text, const std::string& opti
   std::vector<double> lengths;
   for (const std::string_view part : split(text, ',')) {
     const std::optional<double> length = parse_length(part);
-    if (!length) throw InputError({"", 0, option}, quoted(part), "a positive number");
+    if (!length) throw InputError({"", 0, option}, excerpt(part), "a positive number");
     lengths.push_back(*length);
   }
   return lengths;
@@ -111,7 +91,7 @@ SegmentTree parse_tree(std::string_view text, const std::string& option) {
     const auto nodes = parse_pair(part.substr(0, colon), '-');
     const auto length = parse_length(part.substr(std::min(colon + 1, part.size())));
     if (!nodes || !length)
-      throw InputError({"", 0, option}, quoted(part), "a segment and its length, m, such as 1-2:0.3");
+      throw InputError({"", 0, option}, excerpt(part), "a segment and its length, m, such as 1-2:0.3");
     tree.push_back({nodes->first, nodes->second, *length});
   }
   validate(tree, option);
@@ -120,7 +100,7 @@ SegmentTree parse_tree(std::string_view text, const std::string& option) {
 
 std::vector<double> parse_ratios(std::string_view text, const std::string& option) {
   const auto expect = [&](bool holds, std::string_view found, const std::string& expected) {
-    if (!holds) throw InputError({"", 0, option}, quoted(found), expected);
+    if (!holds) throw InputError({"", 0, option}, excerpt(found), expected);
   };
   const auto billionths_of = [&](std::string_view part) {
     const auto billionths = parse_billionths(part);
@@ -154,7 +134,7 @@ std::vector<double> parse_ratios(std::string_view text, const std::string& optio
 Shard parse_shard(std::string_view text, const std::string& option) {
   const auto parts = parse_pair(text, '/');
   if (!parts || parts->first > parts->second) {
-    throw InputError({"", 0, option}, quoted(text), "a part I/N such as 2/8, I from 1 to N");
+    throw InputError({"", 0, option}, excerpt(text), "a part I/N such as 2/8, I from 1 to N");
   }
   return {parts->first, parts->second};
 }

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "tanglebin/dataset/safe_file.hpp"
-#include "tanglebin/dataset/shard.hpp"
-#include "tanglebin/model/segment_tree.hpp"
+#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/model/scene/segment_tree.hpp"
+#include "tanglebin/runs/shard.hpp"
 
 namespace tanglebin::cli {
 

@@ -16,6 +16,7 @@
 #include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/experiment/run_experiment.hpp"
 #include "tanglebin/experiment/summary.hpp"
+#include "tanglebin/model/parameters.hpp"
 #include "tanglebin/report/write_pictures.hpp"
 
 namespace tanglebin::cli {
@@ -30,6 +31,7 @@ struct ExperimentArguments {
   std::string ratios = "0.1:1.0:0.1";
   ManyCases many;
   std::int64_t seed = 0;
+  std::vector<std::string> parameters;
   ProgressStyle progress = ProgressStyle::line;
   bool json = false;
 };
@@ -96,9 +98,11 @@ void print_text(const ExperimentArguments& arguments, const ExperimentSummary& s
 }
 
 void experiment(const ExperimentArguments& arguments) {
-  const ExperimentSettings settings{.methods = methods_of(arguments),
-                                    .ratios = parse_ratios(arguments.ratios, "--downsample"),
-                                    .seed = static_cast<std::uint64_t>(arguments.seed)};
+  ExperimentSettings settings{.methods = methods_of(arguments),
+                              .ratios = parse_ratios(arguments.ratios, "--downsample")};
+  settings.model.seed = static_cast<std::uint64_t>(arguments.seed);
+  for (const std::string& assignment : arguments.parameters)
+    set_parameter(settings.model, assignment, "--parameter");
   const Dataset dataset = read_dataset(arguments.dataset);
   const std::vector<CaseId> wanted = chosen(arguments.many, cases(dataset), arguments.dataset);
   const Clock::time_point start = Clock::now();
@@ -137,6 +141,9 @@ void add_experiment(CLI::App& app) {
   command->add_option("--seed", arguments->seed, "Of the random choices that the methods make")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
+  command->add_option(
+      "--parameter", arguments->parameters,
+      "Set a parameter of a method: NAME=VALUE, such as axis.fit.tolerance=0.1 (docs/algorithm.md)");
   add_progress_option(*command, arguments->progress);
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(

@@ -13,8 +13,8 @@
 #include "tanglebin/cli/many_cases.hpp"
 #include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
-#include "tanglebin/dataset/recipe.hpp"
-#include "tanglebin/dataset/shard.hpp"
+#include "tanglebin/recipe/recipe.hpp"
+#include "tanglebin/runs/shard.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -54,7 +54,7 @@ void generate(const GenerateArguments& arguments) {
   const Recipe recipe = recipe_of(arguments);
   const std::optional<Shard> shard = shard_of(arguments);
   std::vector<CaseId> wanted = chosen(arguments.many, cases(recipe), arguments.recipe);
-  if (shard) wanted = cases_of(*shard, wanted);
+  if (shard) wanted = part_of(*shard, wanted);
   const Clock::time_point start = Clock::now();
   const FillSummary summary = [&] {
     ProgressReport progress(arguments.progress);

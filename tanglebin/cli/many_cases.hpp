@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/dataset/case_id.hpp"
+#include "tanglebin/recipe/case_id.hpp"
 
 namespace CLI {
 class App;

@@ -1,5 +1,3 @@
-#include "tanglebin/model/model.hpp"
-
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -16,15 +14,18 @@
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
-#include "tanglebin/cloud/pcd.hpp"
-#include "tanglebin/cloud/ply.hpp"
-#include "tanglebin/cloud/read_cloud.hpp"
-#include "tanglebin/dataset/configuration.hpp"
-#include "tanglebin/dataset/images.hpp"
-#include "tanglebin/dataset/safe_file.hpp"
-#include "tanglebin/model/axis_method.hpp"
-#include "tanglebin/model/paper_method.hpp"
-#include "tanglebin/model/radius.hpp"
+#include "tanglebin/geometry/labels.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/images.hpp"
+#include "tanglebin/io/pcd.hpp"
+#include "tanglebin/io/ply.hpp"
+#include "tanglebin/io/read_cloud.hpp"
+#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/model/axis/axis_method.hpp"
+#include "tanglebin/model/axis/radius.hpp"
+#include "tanglebin/model/model_tubes.hpp"
+#include "tanglebin/model/paper/paper_method.hpp"
+#include "tanglebin/model/parameters.hpp"
 #include "tanglebin/report/pictures_of_steps.hpp"
 
 namespace tanglebin::cli {
@@ -42,6 +43,7 @@ struct ModelArguments {
   std::string radius = fmt::format("{}", TubeKind().radius);
   std::string length = fmt::format("{}", TubeKind().length());
   std::vector<std::string> trees;
+  std::vector<std::string> parameters;
   std::optional<std::string> debug_directory;
   bool json = false;
 };
@@ -58,9 +60,8 @@ std::vector<SegmentTree> known_segments(const ModelArguments& arguments) {
 
 KnownScene known_scene(const ModelArguments& arguments, const PointCloud& cloud) {
   KnownScene known{.bin = bin_preset(arguments.bin), .camera = camera_preset(arguments.scanner)};
-  const std::vector<double> radii = arguments.radius == "auto"
-                                        ? std::vector{estimate_radius(cloud, known, arguments.cloud)}
-                                        : parse_lengths(arguments.radius, "--radius");
+  const std::vector<double> radii = arguments.radius == "auto" ? std::vector{with_file(arguments.cloud, [&] { return estimate_radius(cloud, known); })}
+                                                               : parse_lengths(arguments.radius, "--radius");
   const std::vector<SegmentTree> segments = known_segments(arguments);
   if (segments.size() != 1 && segments.size() != radii.size()) {
     const std::string what = arguments.trees.empty() ? "length" : "tree";
@@ -122,33 +123,42 @@ void print_summary(const ModelArguments& arguments, const KnownScene& known, con
   }
 }
 
+ModelSettings model_settings(const ModelArguments& arguments) {
+  ModelSettings settings{.method = method_named(arguments.method),
+                         .ratio = arguments.downsample,
+                         .seed = static_cast<std::uint64_t>(arguments.seed)};
+  for (const std::string& assignment : arguments.parameters)
+    set_parameter(settings, assignment, "--parameter");
+  return settings;
+}
+
 std::vector<NamedPicture> pictures(const PointCloud& cloud, const KnownScene& known,
-                                   const ModelArguments& arguments) {
-  const auto seed = static_cast<std::uint64_t>(arguments.seed);
-  switch (method_named(arguments.method)) {
+                                   const ModelSettings& settings, const std::string& name) {
+  const auto& [method, ratio, seed, axis, paper] = settings;
+  switch (method) {
     case Method::paper:
-      return pictures_of_steps(cloud, model_as_in_paper(cloud, known, arguments.downsample, seed), known.bin,
-                               known.kinds[0].radius, arguments.cloud);
+      return pictures_of_steps(cloud, model_as_in_paper(cloud, known, ratio, seed, paper), known.bin,
+                               known.kinds[0].radius, name);
     case Method::axis:
-      return pictures_of_steps(cloud, model_by_axes(cloud, known, arguments.downsample, seed), known.bin,
-                               arguments.cloud);
+      return pictures_of_steps(cloud, model_by_axes(cloud, known, ratio, seed, axis), known.bin, name);
   }
   return {};
 }
 
 void write_pictures(const PointCloud& cloud, const KnownScene& known, const ModelArguments& arguments) {
   make_directories(*arguments.debug_directory);
-  for (const auto& [name, picture] : pictures(cloud, known, arguments)) {
+  for (const auto& [name, picture] : pictures(cloud, known, model_settings(arguments), arguments.cloud)) {
     write_file(std::filesystem::path(*arguments.debug_directory) / (name + ".png"),
                color_png(picture.width, picture.height, picture.pixels));
   }
 }
 
 void model_cloud(const ModelArguments& arguments) {
+  const ModelSettings settings = model_settings(arguments);
   const PointCloud cloud = read_input(arguments.cloud, [](auto&&... from) { return read_cloud(from...); });
   const KnownScene known = known_scene(arguments, cloud);
-  const Model model = model_tubes(cloud, known, method_named(arguments.method), arguments.downsample,
-                                  static_cast<std::uint64_t>(arguments.seed), arguments.cloud);
+  validate(known, settings);
+  const Model model = with_file(arguments.cloud, [&] { return model_tubes(cloud, known, settings); });
   write_output(arguments.out, cloud_bytes(cloud, model, arguments.out));
   if (arguments.tubes) {
     std::ostringstream tubes;
@@ -197,6 +207,9 @@ void add_model(CLI::App& app) {
           "Tubes that branch: the segments between their junctions and ends, and how long these are, "
           "m: 1-2:0.3,1-3:0.1,1-4:0.1; or one option for each radius (method axis)")
       ->excludes(length);
+  command->add_option(
+      "--parameter", arguments->parameters,
+      "Set a parameter of the method: NAME=VALUE, such as axis.fit.tolerance=0.1 (docs/algorithm.md)");
   command->add_option("--debug-dir", arguments->debug_directory,
                       "Directory for a picture of what each step left");
   command->add_flag("--json", arguments->json, "Print the steps as JSON");

@@ -12,12 +12,12 @@
 #include <system_error>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/text.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cloud/read_cloud.hpp"
-#include "tanglebin/dataset/configuration.hpp"
-#include "tanglebin/dataset/excerpt.hpp"
-#include "tanglebin/dataset/images.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/images.hpp"
+#include "tanglebin/io/read_cloud.hpp"
 #include "tanglebin/report/picture.hpp"
 
 namespace tanglebin::cli {

@@ -14,14 +14,15 @@
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cloud/cloud.hpp"
-#include "tanglebin/cloud/pcd.hpp"
-#include "tanglebin/cloud/ply.hpp"
-#include "tanglebin/dataset/configuration.hpp"
-#include "tanglebin/dataset/images.hpp"
-#include "tanglebin/dataset/recipe.hpp"
+#include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/images.hpp"
+#include "tanglebin/io/pcd.hpp"
+#include "tanglebin/io/ply.hpp"
+#include "tanglebin/recipe/recipe.hpp"
 #include "tanglebin/report/picture_of_scan.hpp"
+#include "tanglebin/scan/scan_output.hpp"
 #include "tanglebin/scan/scanner.hpp"
-#include "tanglebin/settle/bin.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -87,11 +88,11 @@ void scan_configuration(const ScanArguments& arguments) {
       scan(tubes, bin, scanner.camera, scanner.sensor, parse_hexadecimal(arguments.seed, "--seed"));
   write_output(arguments.out, cloud_bytes(arguments, view, largest_id(tubes)));
   if (arguments.depth) {
-    write_output(*arguments.depth, depth_png(view));
+    write_output(*arguments.depth, depth_png(depth_image(view)));
     write_output(std::filesystem::path(*arguments.depth).replace_extension(".json").string(),
                  camera_json(view.camera));
   }
-  if (arguments.labels) write_output(*arguments.labels, label_png(view));
+  if (arguments.labels) write_output(*arguments.labels, label_png(label_image(view)));
   if (arguments.picture) {
     const Picture picture = picture_of_scan(scan(tubes, bin, scanner.camera), view, arguments.configuration);
     write_output(*arguments.picture, color_png(picture.width, picture.height, picture.pixels));

@@ -17,12 +17,12 @@
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/print.hpp"
-#include "tanglebin/cloud/read_cloud.hpp"
-#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/geometry/tube.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/read_cloud.hpp"
 #include "tanglebin/scan/scan.hpp"
 #include "tanglebin/score/score_clouds.hpp"
 #include "tanglebin/score/score_tubes.hpp"
-#include "tanglebin/tube/tube.hpp"
 
 namespace tanglebin::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/scan/scan.hpp"
+#include "tanglebin/geometry/labels.hpp"
 
 namespace tanglebin {
 namespace {

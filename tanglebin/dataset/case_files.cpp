@@ -5,11 +5,12 @@
 #include <utility>
 
 #include "tanglebin/cloud/cloud.hpp"
-#include "tanglebin/cloud/pcd.hpp"
-#include "tanglebin/cloud/ply.hpp"
-#include "tanglebin/dataset/configuration.hpp"
-#include "tanglebin/dataset/images.hpp"
-#include "tanglebin/dataset/world_sdf.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/images.hpp"
+#include "tanglebin/io/pcd.hpp"
+#include "tanglebin/io/ply.hpp"
+#include "tanglebin/scan/scan_output.hpp"
+#include "tanglebin/simulate/world_sdf.hpp"
 
 namespace tanglebin {
 namespace {
@@ -46,10 +47,10 @@ void add_images(const Recipe& recipe, const CaseId& id, const std::string& scann
         }));
   }
   if (output.depths) {
-    add("depths", "png", depth_png(view));
+    add("depths", "png", depth_png(depth_image(view)));
     add("depths", "json", camera_json(view.camera));
   }
-  if (output.labels) add("labels", "png", label_png(view));
+  if (output.labels) add("labels", "png", label_png(label_image(view)));
 }
 
 }  // namespace

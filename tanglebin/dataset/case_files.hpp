@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/dataset/case_id.hpp"
-#include "tanglebin/dataset/recipe.hpp"
-#include "tanglebin/dataset/simulate.hpp"
+#include "tanglebin/recipe/case_id.hpp"
+#include "tanglebin/recipe/recipe.hpp"
+#include "tanglebin/simulate/simulate.hpp"
 
 namespace tanglebin {
 

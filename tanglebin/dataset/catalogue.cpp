@@ -5,10 +5,11 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/finished_cases.hpp"
-#include "tanglebin/dataset/journal.hpp"
-#include "tanglebin/dataset/json_record.hpp"
-#include "tanglebin/dataset/read_file.hpp"
-#include "tanglebin/dataset/safe_file.hpp"
+#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/recipe/case_json.hpp"
+#include "tanglebin/runs/journal.hpp"
 
 namespace tanglebin {
 
@@ -23,7 +24,7 @@ std::string to_json(const FailedCase& failed) {
 
 FailedCase failed_case(const std::string& json, const std::string& file, std::size_t line) {
   const JsonRecord value(json, file, line);
-  return {value.id(), value.seed("seed"), value.text("reason")};
+  return {id_of(value), value.seed("seed"), value.text("reason")};
 }
 
 /// Fetches lines from where they are.

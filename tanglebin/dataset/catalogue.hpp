@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/dataset/case_id.hpp"
 #include "tanglebin/dataset/dataset_summary.hpp"
+#include "tanglebin/recipe/case_id.hpp"
 
 namespace tanglebin {
 

@@ -8,11 +8,11 @@
 #include <system_error>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cloud/ply.hpp"
-#include "tanglebin/dataset/configuration.hpp"
-#include "tanglebin/dataset/read_file.hpp"
-#include "tanglebin/dataset/safe_file.hpp"
 #include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/ply.hpp"
+#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/io/safe_file.hpp"
 
 namespace tanglebin {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/dataset/finished_cases.hpp"
-#include "tanglebin/dataset/recipe.hpp"
-#include "tanglebin/tube/tube.hpp"
+#include "tanglebin/geometry/tube.hpp"
+#include "tanglebin/recipe/recipe.hpp"
 
 namespace tanglebin {
 

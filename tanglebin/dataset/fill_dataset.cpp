@@ -9,12 +9,12 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/random.hpp"
-#include "tanglebin/dataset/file_lock.hpp"
 #include "tanglebin/dataset/finished_cases.hpp"
-#include "tanglebin/dataset/journal.hpp"
-#include "tanglebin/dataset/safe_file.hpp"
 #include "tanglebin/dataset/sha256.hpp"
-#include "tanglebin/dataset/workers.hpp"
+#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/runs/file_lock.hpp"
+#include "tanglebin/runs/journal.hpp"
+#include "tanglebin/runs/workers.hpp"
 
 namespace tanglebin {
 namespace {

@@ -12,8 +12,8 @@
 #include "tanglebin/dataset/catalogue.hpp"
 #include "tanglebin/dataset/dataset_summary.hpp"
 #include "tanglebin/dataset/manifest.hpp"
-#include "tanglebin/dataset/recipe.hpp"
 #include "tanglebin/dataset/run_observer.hpp"
+#include "tanglebin/recipe/recipe.hpp"
 
 namespace tanglebin {
 

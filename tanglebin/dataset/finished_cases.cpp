@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "tanglebin/dataset/journal.hpp"
+#include "tanglebin/runs/journal.hpp"
 
 namespace tanglebin {
 namespace {

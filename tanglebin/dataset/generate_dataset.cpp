@@ -8,9 +8,9 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/case_files.hpp"
-#include "tanglebin/dataset/simulate.hpp"
 #include "tanglebin/dataset/versions.hpp"
-#include "tanglebin/dataset/workers.hpp"
+#include "tanglebin/runs/workers.hpp"
+#include "tanglebin/simulate/simulate.hpp"
 
 namespace tanglebin {
 namespace {

@@ -4,8 +4,9 @@
 #include <string>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/dataset/excerpt.hpp"
-#include "tanglebin/dataset/json_record.hpp"
+#include "tanglebin/base/text.hpp"
+#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/recipe/case_json.hpp"
 
 namespace tanglebin {
 namespace {
@@ -68,7 +69,7 @@ std::string to_json(const TimesRecord& record) {
 
 CaseRecord case_record(const std::string& json, const std::string& file, std::size_t line) {
   const JsonRecord value(json, file, line);
-  CaseRecord record{value.id(),
+  CaseRecord record{id_of(value),
                     value.seed("seed"),
                     value.number("simulated"),
                     value.number("largest_overlap"),
@@ -98,7 +99,7 @@ CaseRecord case_record(const std::string& json, const std::string& file, std::si
 TimesRecord times_record(const std::string& json, const std::string& file, std::size_t line) {
   const JsonRecord value(json, file, line);
   TimesRecord record{
-      value.id(),
+      id_of(value),
       {value.number("generate"), value.number("settle"), value.number("scan"), value.number("write")},
       value.number("peak_memory")};
   expect_id_first(record.id, json, file, line);

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/dataset/case_id.hpp"
-#include "tanglebin/dataset/simulate.hpp"
+#include "tanglebin/recipe/case_id.hpp"
+#include "tanglebin/simulate/simulate.hpp"
 
 namespace tanglebin {
 

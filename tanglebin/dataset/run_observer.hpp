@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "tanglebin/dataset/case_id.hpp"
+#include "tanglebin/recipe/case_id.hpp"
 
 namespace tanglebin {
 

@@ -13,13 +13,13 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/random.hpp"
-#include "tanglebin/cloud/pcd.hpp"
-#include "tanglebin/cloud/ply.hpp"
 #include "tanglebin/dataset/case_files.hpp"
-#include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/geometry/mass_properties.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/pcd.hpp"
+#include "tanglebin/io/ply.hpp"
 #include "tanglebin/settle/overlap.hpp"
-#include "tanglebin/tube/mass_properties.hpp"
 
 namespace tanglebin {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/manifest.hpp"
-#include "tanglebin/dataset/recipe.hpp"
 #include "tanglebin/dataset/verify_dataset.hpp"
+#include "tanglebin/recipe/recipe.hpp"
 
 // Internal to the library: one case of verify_dataset().
 namespace tanglebin {

@@ -14,9 +14,9 @@
 #include "tanglebin/dataset/catalogue.hpp"
 #include "tanglebin/dataset/fill_dataset.hpp"
 #include "tanglebin/dataset/finished_cases.hpp"
-#include "tanglebin/dataset/journal.hpp"
 #include "tanglebin/dataset/verify_case.hpp"
-#include "tanglebin/dataset/workers.hpp"
+#include "tanglebin/runs/journal.hpp"
+#include "tanglebin/runs/workers.hpp"
 
 namespace tanglebin {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "tanglebin/dataset/dataset_summary.hpp"
-#include "tanglebin/dataset/recipe.hpp"
 #include "tanglebin/dataset/run_observer.hpp"
+#include "tanglebin/recipe/recipe.hpp"
 
 namespace tanglebin {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "tanglebin/experiment/run.hpp"
-#include "tanglebin/model/axis_method.hpp"
+#include "tanglebin/model/axis/axis_method.hpp"
 #include "tanglebin/score/centre_line.hpp"
 #include "tanglebin/score/score_clouds.hpp"
 

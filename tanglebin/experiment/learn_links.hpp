@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tanglebin/dataset/dataset.hpp"
-#include "tanglebin/model/links.hpp"
+#include "tanglebin/model/axis/links.hpp"
 
 namespace tanglebin {
 

@@ -8,10 +8,12 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/dataset/journal.hpp"
-#include "tanglebin/dataset/json_record.hpp"
-#include "tanglebin/dataset/read_file.hpp"
-#include "tanglebin/dataset/safe_file.hpp"
+#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/model/parameters.hpp"
+#include "tanglebin/recipe/case_json.hpp"
+#include "tanglebin/runs/journal.hpp"
 
 namespace tanglebin {
 namespace {
@@ -39,7 +41,7 @@ Json run_json(const RunId& run) {
 }
 
 RunId run_of(const JsonRecord& record) {
-  return {method_named(record.text("method")), record.id(), record.number("ratio")};
+  return {method_named(record.text("method")), id_of(record), record.number("ratio")};
 }
 
 RunResult run_result(const std::string& line, const std::string& file, std::size_t number) {
@@ -77,7 +79,8 @@ Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings)
   json["methods"] = Json::array();
   for (const Method method : settings.methods) json["methods"].push_back(name_of(method));
   json["ratios"] = settings.ratios;
-  json["seed"] = settings.seed;
+  json["seed"] = settings.model.seed;
+  json["parameters"] = changed_parameters(settings.model);
   json["recipe_sha256"] = dataset.recipe_sha256;
   return json;
 }

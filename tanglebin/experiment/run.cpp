@@ -43,11 +43,16 @@ KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
   return known;
 }
 
-Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run, std::uint64_t seed) {
+Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run,
+                 const ExperimentSettings& settings) {
   const CaseId& id = run.scene;
+  ModelSettings model = settings.model;
+  model.method = run.method;
+  model.ratio = run.ratio;
   constexpr int no_attempt = 0;  // of a scene's: these count from 1, so the model's seed is never one of them
-  return model_tubes(data.cloud, known_scene(recipe_of(dataset, id), id), run.method, run.ratio,
-                     attempt_seed(seed, id.set, id.tubes, id.number, no_attempt), data.cloud_file);
+  model.seed = attempt_seed(settings.model.seed, id.set, id.tubes, id.number, no_attempt);
+  return with_file(data.cloud_file,
+                   [&] { return model_tubes(data.cloud, known_scene(recipe_of(dataset, id), id), model); });
 }
 
 ModelScore score_model(const CaseData& data, const Model& model) {

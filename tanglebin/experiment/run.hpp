@@ -1,12 +1,11 @@
 #pragma once
 
 #include <compare>
-#include <cstdint>
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/dataset/dataset.hpp"
-#include "tanglebin/model/model.hpp"
+#include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/score/score.hpp"
 #include "tanglebin/score/score_tubes.hpp"
 
@@ -16,7 +15,7 @@ namespace tanglebin {
 struct ExperimentSettings {
   std::vector<Method> methods = tanglebin::methods();  ///< as methods() orders them, without repetition
   std::vector<double> ratios;                          ///< ascending, each in (0, 1]
-  std::uint64_t seed = 0;
+  ModelSettings model{};  ///< its seed is mixed with each case's name; method and ratio are ignored
 };
 
 /// One of these trials.
@@ -34,8 +33,10 @@ struct RunId {
 KnownScene known_scene(const Recipe& recipe, const CaseId& id);
 
 /// Models the tubes of a run's case, whose bin, camera, radius and length the recipe tells. The model's seed
-/// follows from (`seed`, set, number of tubes, case) alone. Throws InputError as model_tubes() does.
-Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run, std::uint64_t seed);
+/// follows from (settings.model.seed, set, number of tubes, case) alone. Throws InputError as model_tubes()
+/// does, naming the case's cloud.
+Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run,
+                 const ExperimentSettings& settings);
 
 /// How good a model is.
 struct ModelScore {

@@ -3,10 +3,10 @@
 #include <chrono>
 #include <string>
 
-#include "tanglebin/dataset/journal.hpp"
-#include "tanglebin/dataset/safe_file.hpp"
-#include "tanglebin/dataset/workers.hpp"
 #include "tanglebin/experiment/results.hpp"
+#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/runs/journal.hpp"
+#include "tanglebin/runs/workers.hpp"
 
 namespace tanglebin {
 namespace {
@@ -21,7 +21,7 @@ std::string run_case(const Dataset& dataset, const ExperimentSettings& settings,
     for (const double ratio : settings.ratios) {
       const RunId run{method, id, ratio};
       const Clock::time_point start = Clock::now();
-      const Model model = model_case(dataset, data, run, settings.seed);
+      const Model model = model_case(dataset, data, run, settings);
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
       lines.push_back(result_json(run, model, score_model(data, model)));
       lines.push_back(times_json(run, model, seconds));
@@ -35,6 +35,7 @@ std::string run_case(const Dataset& dataset, const ExperimentSettings& settings,
 ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSettings& settings,
                                  const std::vector<CaseId>& wanted, const std::filesystem::path& directory,
                                  int jobs, const RunObserver& observer) {
+  for (const Method method : settings.methods) expect_available(method);
   make_directories(directory);
   const Journal journal(directory);
   claim(directory, dataset, settings);

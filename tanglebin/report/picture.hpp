@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
+#include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/report/shading.hpp"
 #include "tanglebin/report/view.hpp"
-#include "tanglebin/settle/bin.hpp"
-#include "tanglebin/tube/tube.hpp"
 
 namespace tanglebin {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <array>
 
+#include "tanglebin/geometry/intersect.hpp"
 #include "tanglebin/report/palette.hpp"
 #include "tanglebin/report/picture.hpp"
-#include "tanglebin/scan/intersect.hpp"
 #include "tanglebin/scan/scanner.hpp"
 
 namespace tanglebin {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "tanglebin/base/picked.hpp"
+#include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/report/picture.hpp"
 
 namespace tanglebin {

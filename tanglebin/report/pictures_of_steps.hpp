@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
-#include "tanglebin/model/axis_method.hpp"
-#include "tanglebin/model/paper_method.hpp"
+#include "tanglebin/model/axis/axis_method.hpp"
+#include "tanglebin/model/paper/paper_method.hpp"
 #include "tanglebin/report/shading.hpp"
 
 namespace tanglebin {

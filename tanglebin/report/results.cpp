@@ -7,9 +7,10 @@
 #include <system_error>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/dataset/excerpt.hpp"
-#include "tanglebin/dataset/json_record.hpp"
-#include "tanglebin/dataset/read_file.hpp"
+#include "tanglebin/base/text.hpp"
+#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/recipe/case_json.hpp"
 
 namespace tanglebin {
 namespace {
@@ -65,7 +66,7 @@ ExperimentRecord read_experiment(const fs::path& file) {
 
 RunKey run_of(const JsonRecord& record) {
   return {
-      .id = record.id(), .method = record.text("method"), .ratio = record.number("ratio", least_ratio, 1)};
+      .id = id_of(record), .method = record.text("method"), .ratio = record.number("ratio", least_ratio, 1)};
 }
 
 RunScore score_of(const JsonRecord& record) {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/dataset/case_id.hpp"
 #include "tanglebin/dataset/manifest.hpp"
+#include "tanglebin/recipe/case_id.hpp"
 
 // What a results directory holds (docs/formats.md).
 namespace tanglebin {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
-#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/geometry/camera.hpp"
 
 namespace tanglebin {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/geometry/camera.hpp"
 
 namespace tanglebin {
 

@@ -5,10 +5,11 @@
 #include <numbers>
 #include <string>
 
-#include "tanglebin/dataset/images.hpp"
-#include "tanglebin/dataset/json_record.hpp"
-#include "tanglebin/dataset/safe_file.hpp"
 #include "tanglebin/experiment/summary.hpp"
+#include "tanglebin/io/images.hpp"
+#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/recipe/case_json.hpp"
 #include "tanglebin/report/picture.hpp"
 
 namespace tanglebin {
@@ -25,10 +26,10 @@ void draw(const PointCloud& cloud, const std::filesystem::path& file, const std:
 
 // Draws an example; returns its line of pictures.jsonl.
 std::string draw_example(const Example& example, const std::filesystem::path& directory,
-                         const Dataset& dataset, std::uint64_t seed) {
+                         const Dataset& dataset, const ExperimentSettings& settings) {
   const auto& [run, micro_recall, json] = example.result;
   const CaseData data = read_case(dataset, run.scene);
-  const ComparedClouds clouds = compared_clouds(data, model_case(dataset, data, run, seed));
+  const ComparedClouds clouds = compared_clouds(data, model_case(dataset, data, run, settings));
   const std::string name = fmt::format("pictures/{}-{}", name_of(run.method), example.rank);
   const std::string truth = name + "-truth.png";
   const std::string labels = name + "-labels.png";
@@ -53,7 +54,7 @@ void write_pictures(const std::filesystem::path& directory, const Dataset& datas
   std::string lines;
   for (const Method method : settings.methods) {
     for (const Example& example : examples(results, method, ratio_to_show(settings.ratios))) {
-      lines += draw_example(example, directory, dataset, settings.seed) + '\n';
+      lines += draw_example(example, directory, dataset, settings) + '\n';
     }
   }
   write_file(directory / "pictures.jsonl", lines);

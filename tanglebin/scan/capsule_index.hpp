@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "tanglebin/tube/capsule.hpp"
+#include "tanglebin/geometry/capsule.hpp"
 
 namespace tanglebin {
 

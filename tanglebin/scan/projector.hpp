@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/geometry/camera.hpp"
 #include "tanglebin/scan/sensor.hpp"
 #include "tanglebin/scan/tile_index.hpp"
 

@@ -6,12 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/geometry/camera.hpp"
+#include "tanglebin/geometry/labels.hpp"
 
 namespace tanglebin {
-
-inline constexpr std::int32_t bin_label = 0;    ///< the bin; tubes are 1, 2, …
-inline constexpr std::int32_t null_label = -1;  ///< no tube claims the point; in a scan: the ray met nothing
 
 /// Part of an image: columns [left, left + width), rows [top, top + height).
 struct PixelWindow {

@@ -4,10 +4,10 @@
 #include <string_view>
 #include <vector>
 
+#include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/scan/scan.hpp"
 #include "tanglebin/scan/sensor.hpp"
-#include "tanglebin/settle/bin.hpp"
-#include "tanglebin/tube/tube.hpp"
 
 namespace tanglebin {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/geometry/camera.hpp"
 
 namespace tanglebin {
 namespace {

@@ -7,12 +7,12 @@
 #include <optional>
 #include <vector>
 
-#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/geometry/camera.hpp"
+#include "tanglebin/geometry/intersect.hpp"
+#include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/scan/capsule_index.hpp"
-#include "tanglebin/scan/intersect.hpp"
 #include "tanglebin/scan/scan.hpp"
-#include "tanglebin/settle/bin.hpp"
-#include "tanglebin/tube/tube.hpp"
 
 namespace tanglebin {
 

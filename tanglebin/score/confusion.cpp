@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tanglebin/scan/scan.hpp"
+#include "tanglebin/geometry/labels.hpp"
 
 namespace tanglebin {
 namespace {

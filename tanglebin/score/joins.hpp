@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/score/centre_line.hpp"
-#include "tanglebin/tube/tube.hpp"
 
 namespace tanglebin {
 

@@ -14,7 +14,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
-#include "tanglebin/scan/scan.hpp"
+#include "tanglebin/geometry/labels.hpp"
 
 namespace tanglebin {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "tanglebin/tube/tube.hpp"
+#include "tanglebin/geometry/tube.hpp"
 
 namespace tanglebin {
 

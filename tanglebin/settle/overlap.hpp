@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "tanglebin/settle/bin.hpp"
-#include "tanglebin/tube/tube.hpp"
+#include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/geometry/tube.hpp"
 
 namespace tanglebin {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/geometry/mass_properties.hpp"
 #include "tanglebin/settle/overlap.hpp"
 #include "tanglebin/settle/world.hpp"
-#include "tanglebin/tube/mass_properties.hpp"
 
 namespace tanglebin {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/settle/bin.hpp"
-#include "tanglebin/tube/tube.hpp"
+#include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/geometry/tube.hpp"
 
 namespace tanglebin {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/tube/mass_properties.hpp"
+#include "tanglebin/geometry/mass_properties.hpp"
 
 namespace tanglebin {
 namespace {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "tanglebin/settle/bin.hpp"
+#include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/settle/settle.hpp"
-#include "tanglebin/tube/tube.hpp"
 
 namespace tanglebin {
 

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "../support/program.hpp"
-#include "../support/recipe_text.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/recipe_text.hpp"
 
 namespace tanglebin {
 namespace {
@@ -84,7 +84,7 @@ TEST_F(ExperimentCommand, BadInputIsExitStatusTwoAndOneLine) {
   };
   for (const std::string ratio :
        {"0", "1.1", "-0.1", "nan", "some", "0.1,", "", "0.1:2:0.1", "0.1:1:0", "0.12345678901"}) {
-    expect_error(experiment("--downsample '" + ratio + "'"), "--downsample: found \"");
+    expect_error(experiment("--downsample '" + ratio + "'"), "--downsample: found '");
   }
   expect_error(experiment("--downsample 0.1:1"), "first:last:step");
   expect_error(experiment("--downsample 0.1:1:0.2"), "a step that leads from the first to the last");

@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <string>
 
-#include "../support/program.hpp"
-#include "../support/recipe_text.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/recipe_text.hpp"
 
 namespace tanglebin {
 namespace {

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "../support/program.hpp"
+#include "tests/support/program.hpp"
 
 namespace tanglebin {
 namespace {
@@ -230,8 +230,8 @@ TEST_F(Generate, BadInputIsExitStatusTwoAndOneLine) {
   };
   expect_error("generate " + (directory_ / "none.toml").string() + " --out " + out(), "none.toml: ");
   expect_error(command("--set C"), "no case has this --set, --tubes and --cases");
-  expect_error(command("--cases 3-1"), "--cases: found \"3-1\", expected a number or a range such as 1-20");
-  expect_error(command("--shard 3/2"), "--shard: found \"3/2\", expected a part I/N such as 2/8");
+  expect_error(command("--cases 3-1"), "--cases: found '3-1', expected a number or a range such as 1-20");
+  expect_error(command("--shard 3/2"), "--shard: found '3/2', expected a part I/N such as 2/8");
   expect_error("generate " + recipe_.string() + " --out /proc/dataset", "/proc/dataset");
   EXPECT_FALSE(std::filesystem::exists(out()));
 }

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "../support/program.hpp"
-#include "../support/recipe_text.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/recipe_text.hpp"
 
 namespace tanglebin {
 namespace {

@@ -16,8 +16,8 @@
 #include <thread>
 #include <vector>
 
-#include "../support/processes.hpp"
-#include "../support/program.hpp"
+#include "tests/support/processes.hpp"
+#include "tests/support/program.hpp"
 
 namespace tanglebin {
 namespace {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "../support/program.hpp"
-#include "../support/recipe_text.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/recipe_text.hpp"
 
 namespace tanglebin {
 namespace {

@@ -8,13 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "../model/scanned.hpp"
-#include "../support/program.hpp"
-#include "tanglebin/cloud/pcd.hpp"
-#include "tanglebin/cloud/ply.hpp"
-#include "tanglebin/cloud/read_cloud.hpp"
-#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/pcd.hpp"
+#include "tanglebin/io/ply.hpp"
+#include "tanglebin/io/read_cloud.hpp"
+#include "tanglebin/scan/scan_output.hpp"
 #include "tanglebin/score/score.hpp"
+#include "tests/model/scene/scanned.hpp"
+#include "tests/support/program.hpp"
 
 namespace tanglebin {
 namespace {
@@ -165,20 +166,20 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
   write("mm.ply", ply_of(millimetres));
   const std::vector<std::pair<ProgramResult, std::string>> refusals = {
       {model("mm.ply", ""), "millimetres?"},
-      {model("scan.ply", "--method magic"), "method: found \"magic\", expected paper, axis"},
+      {model("scan.ply", "--method magic"), "method: found 'magic', expected paper, axis"},
       {model("scan.ply", "--downsample 0"), "downsample: found 0, expected"},
-      {model("scan.ply", "--radius -1"), "--radius: found \"-1\", expected a positive number"},
-      {model("scan.ply", "--radius 0.01,"), "--radius: found \"\", expected a positive number"},
+      {model("scan.ply", "--radius -1"), "--radius: found '-1', expected a positive number"},
+      {model("scan.ply", "--radius 0.01,"), "--radius: found '', expected a positive number"},
       {model("scan.ply", "--radius 0.01,0.01"), "radius: found 0.01 m a second time"},
       {model("scan.ply", "--radius 0.01,0.02,0.03 --length 0.4,0.5"),
        "--length: found 2 lengths, expected one, or one for each radius: 3"},
       {model("scan.ply", "--tree 1-2:0.3,1-3"),
-       "--tree: found \"1-3\", expected a segment and its length, m, such as 1-2:0.3"},
+       "--tree: found '1-3', expected a segment and its length, m, such as 1-2:0.3"},
       {model("scan.ply", "--tree 1-2:0.3,2-1:0.1"), "--tree: found a segment to node 1, which closes a loop"},
       {model("scan.ply", "--tree 1-2:0.3 --tree 1-2:0.4"),
        "--tree: found 2 trees, expected one, or one for each radius: 1"},
       {model("scan.ply", "--radius 0.01,0.02 --method paper"),
-       "method: found paper, for tubes of several radii"},
+       "method: found paper for tubes of several radii"},
       {model("scan.ply", "--bin bucket"), "bucket"},
       {model("nowhere.ply", ""), "nowhere.ply"},
   };

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <string>
 
-#include "../support/program.hpp"
-#include "../support/temporary_directory.hpp"
-#include "tanglebin/cloud/pcd.hpp"
-#include "tanglebin/cloud/ply.hpp"
+#include "tanglebin/io/pcd.hpp"
+#include "tanglebin/io/ply.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {
@@ -122,7 +122,7 @@ TEST_F(Preview, SaysWhatIsWrongWithItsInputAndExitsWith2) {
   EXPECT_THAT(message("empty.ply"), HasSubstr("empty.ply: found a cloud without points"));
   EXPECT_THAT(message("- < story.txt"), StartsWith("tanglebin: standard input: found 'O' first"));
   EXPECT_THAT(message("tube.txt --bin round"),
-              HasSubstr("found \"round\", expected \"paper\" or \"published\""));
+              HasSubstr("found 'round', expected paper or published"));
   EXPECT_THAT(message("tube.txt --width 0"), HasSubstr("width: found 0, expected 1 to 4096 pixels"));
   EXPECT_THAT(message("tube.txt --elevation-deg 100"),
               HasSubstr("elevation: found 100°, expected -90° to 90°"));

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "../report/synthetic_results.hpp"
-#include "../support/program.hpp"
-#include "../support/temporary_directory.hpp"
+#include "tests/report/synthetic_results.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "../support/program.hpp"
-#include "tanglebin/cloud/pcd.hpp"
-#include "tanglebin/cloud/ply.hpp"
-#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/pcd.hpp"
+#include "tanglebin/io/ply.hpp"
+#include "tests/support/program.hpp"
 
 namespace tanglebin {
 namespace {
@@ -108,7 +108,7 @@ TEST_F(ScanCommand, NamesTheSettingThatIsWrong) {
   EXPECT_THAT(said("--set scanner.snr=-1"), HasSubstr("scanner.snr: found -1"));
   EXPECT_THAT(said("--set scanner.focal_length_px=0"), HasSubstr("scanner.focal_length_px: found 0"));
   EXPECT_THAT(said("--set scanner.edges=blur"), HasSubstr("\"keep\", \"drop\" or \"mix\""));
-  EXPECT_THAT(said("--seed 0x1"), HasSubstr("--seed: found \"0x1\""));
+  EXPECT_THAT(said("--seed 0x1"), HasSubstr("--seed: found '0x1'"));
 }
 
 TEST_F(ScanCommand, StandardInputAndOutputTakeAndGiveTheSame) {

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "../support/program.hpp"
-#include "../support/temporary_directory.hpp"
-#include "tanglebin/cloud/pcd.hpp"
-#include "tanglebin/cloud/ply.hpp"
+#include "tanglebin/io/pcd.hpp"
+#include "tanglebin/io/ply.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "../support/program.hpp"
-#include "../support/temporary_directory.hpp"
-#include "tanglebin/cloud/ply.hpp"
+#include "tanglebin/io/ply.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "clouds.hpp"
+#include "tests/cloud/clouds.hpp"
 #include "tests/support/complaint.hpp"
 
 namespace tanglebin {

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/generate/generate.hpp"
+#include "tanglebin/io/configuration.hpp"
 #include "tanglebin/settle/overlap.hpp"
-#include "tanglebin/tube/generate.hpp"
+#include "tests/geometry/example_tubes.hpp"
 #include "tests/support/temporary_directory.hpp"
-#include "tests/tube/example_tubes.hpp"
 
 namespace checker {
 namespace {

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 
-#include "../support/temporary_directory.hpp"
-#include "small_recipe.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
+#include "tests/dataset/small_recipe.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {

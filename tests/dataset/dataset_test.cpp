@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <string>
 
-#include "../support/temporary_directory.hpp"
-#include "small_recipe.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
 #include "tanglebin/dataset/sha256.hpp"
+#include "tests/dataset/small_recipe.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {

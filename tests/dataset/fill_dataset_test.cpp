@@ -10,12 +10,12 @@
 #include <string>
 #include <utility>
 
-#include "../support/temporary_directory.hpp"
-#include "small_recipe.hpp"
 #include "tanglebin/base/random.hpp"
-#include "tanglebin/dataset/shard.hpp"
-#include "tanglebin/dataset/workers.hpp"
+#include "tanglebin/runs/shard.hpp"
+#include "tanglebin/runs/workers.hpp"
+#include "tests/dataset/small_recipe.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {
@@ -105,7 +105,7 @@ TEST(FillDataset, ShardsFillOneDirectoryAtTheSameTime) {
   fill(whole);
   const auto fill_shard = [&](int index) {
     FillRequest request = request_of(shared, name_of(Shard{index, 2}));
-    request.wanted = cases_of({index, 2}, request.wanted);
+    request.wanted = part_of({index, 2}, request.wanted);
     return fill_dataset(request,
                         [&](const CaseId& id, const CaseWriter& writer) {
                           // Neither shard ends before both have begun.
@@ -243,7 +243,7 @@ TEST(FillDataset, SaysWhatItIsMadeWithBeforeThereAreCasesAndOnlyWhereThereAreAny
 TEST(FillDataset, AShardThatBeginsLeavesTheLinesOfOnesAtWorkToThem) {
   const TemporaryDirectory directory;
   FillRequest first = request_of(directory, "1-of-2");
-  first.wanted = cases_of({1, 2}, first.wanted);
+  first.wanted = part_of({1, 2}, first.wanted);
   first.jobs = 1;
   std::filesystem::file_time_type written;
   bool is_first = true;

@@ -10,16 +10,16 @@
 #include <sstream>
 #include <string>
 
-#include "../support/temporary_directory.hpp"
-#include "small_recipe.hpp"
-#include "tanglebin/cloud/ply.hpp"
 #include "tanglebin/dataset/case_files.hpp"
-#include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/dataset/dataset.hpp"
-#include "tanglebin/dataset/file_lock.hpp"
 #include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/ply.hpp"
+#include "tanglebin/runs/file_lock.hpp"
+#include "tests/dataset/small_recipe.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <string>
 
-#include "../support/temporary_directory.hpp"
-#include "small_recipe.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
-#include "tanglebin/dataset/shard.hpp"
+#include "tanglebin/runs/shard.hpp"
+#include "tests/dataset/small_recipe.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {
@@ -29,7 +29,7 @@ protected:
   void make_parts(int count) {
     for (int index = 1; index <= count; ++index) {
       parts_.push_back(directory_ / ("part-" + std::to_string(index)));
-      generate_dataset(recipe_, cases_of({index, count}, cases(recipe_)), parts_.back(), 1);
+      generate_dataset(recipe_, part_of({index, count}, cases(recipe_)), parts_.back(), 1);
     }
   }
 

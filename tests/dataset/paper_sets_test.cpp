@@ -5,10 +5,10 @@
 
 #include <string>
 
-#include "../support/temporary_directory.hpp"
-#include "checker.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
-#include "tanglebin/dataset/recipe.hpp"
+#include "tanglebin/recipe/recipe.hpp"
+#include "tests/dataset/checker.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "tanglebin/dataset/catalogue.hpp"
-#include "tanglebin/dataset/recipe.hpp"
-#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/geometry/camera.hpp"
+#include "tanglebin/recipe/recipe.hpp"
 
 namespace tanglebin::test {
 

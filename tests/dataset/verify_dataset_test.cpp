@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "../support/temporary_directory.hpp"
-#include "small_recipe.hpp"
-#include "tanglebin/dataset/configuration.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
 #include "tanglebin/dataset/repair_dataset.hpp"
 #include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tests/dataset/small_recipe.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "small_dataset.hpp"
 #include "tanglebin/base/random.hpp"
+#include "tests/experiment/small_dataset.hpp"
 
 namespace tanglebin {
 namespace {

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "small_dataset.hpp"
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/dataset/file_lock.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/experiment/results.hpp"
+#include "tanglebin/runs/file_lock.hpp"
+#include "tests/experiment/small_dataset.hpp"
 
 namespace tanglebin {
 namespace {
@@ -62,7 +62,7 @@ protected:
   }
 
   SmallDataset dataset_;
-  ExperimentSettings settings_{.methods = methods(), .ratios = {0.6, 1}, .seed = 5};
+  ExperimentSettings settings_{.methods = methods(), .ratios = {0.6, 1}, .model = {.seed = 5}};
 };
 
 TEST_F(RunExperiment, LeavesALineForEachRunInTheOrderOfMethodCaseAndRatio) {
@@ -99,7 +99,7 @@ TEST_F(RunExperiment, ALineHasWhatModellingAndScoringTheCaseGive) {
   const Dataset dataset = dataset_.read();
   const RunId id{Method::paper, {"A", 3, 2}, 0.6};
   const CaseData data = read_case(dataset, id.scene);
-  const Model model = model_case(dataset, data, id, settings_.seed);
+  const Model model = model_case(dataset, data, id, settings_);
   EXPECT_EQ(lines_of(bytes_of(results / "results.jsonl")).at(0),
             result_json(id, model, score_model(data, model)));
 }
@@ -187,9 +187,9 @@ TEST_F(RunExperiment, AnotherExperimentIsNotLetIn) {
     EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("experiment.json: " + difference));
     EXPECT_EQ(files_below(results.path()), before);
   };
-  settings_.seed = 6;
+  settings_.model.seed = 6;
   expect_refused("seed: the directory belongs to another experiment: it has 5, this one 6");
-  settings_.seed = 5;
+  settings_.model.seed = 5;
   settings_.ratios = {0.6};
   expect_refused("ratios: the directory belongs to another experiment: it has [0.6,1.0], this one [0.6]");
   settings_.ratios = {0.6, 1};

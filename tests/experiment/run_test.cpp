@@ -7,10 +7,10 @@
 #include <set>
 #include <string>
 
-#include "small_dataset.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/experiment/results.hpp"
 #include "tanglebin/score/score.hpp"
+#include "tests/experiment/small_dataset.hpp"
 
 namespace tanglebin {
 namespace {
@@ -104,7 +104,7 @@ TEST(ResultJson, HasTheScoresOfTheModelComputedDirectly) {
   const Dataset dataset = directory.read();
   const RunId run{Method::paper, {"A", 3, 1}, 1.0};
   const CaseData data = read_case(dataset, run.scene);
-  const Model model = model_case(dataset, data, run, 5);
+  const Model model = model_case(dataset, data, run, {.ratios = {}, .model = {.seed = 5}});
 
   std::vector<std::int32_t> truth;
   std::vector<std::int32_t> labels;
@@ -141,7 +141,9 @@ TEST(ModelCase, ModelsTheSameAgainAndAnotherSeedAnother) {
   const Dataset dataset = directory.read();
   const RunId run{Method::paper, {"A", 3, 1}, 0.8};
   const CaseData data = read_case(dataset, run.scene);
-  const auto model = [&](std::uint64_t seed) { return model_case(dataset, data, run, seed); };
+  const auto model = [&](std::uint64_t seed) {
+    return model_case(dataset, data, run, {.ratios = {}, .model = {.seed = seed}});
+  };
   EXPECT_EQ(model(1).labels, model(1).labels);
   EXPECT_NE(model(1).filtered, model(2).filtered);
 }

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "../dataset/small_recipe.hpp"
-#include "../support/temporary_directory.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
+#include "tests/dataset/small_recipe.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin::test {
 

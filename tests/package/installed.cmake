@@ -20,3 +20,16 @@ if(NOT output MATCHES "^[1-9][0-9]* points on 3 tubes\n$")
 endif()
 
 run(${work}/installed/bin/tanglebin --version)
+
+# Each public header compiles by itself, with nothing but what is installed.
+set(headers ${work}/headers)
+file(GLOB_RECURSE installed RELATIVE ${work}/installed/include ${work}/installed/include/*.hpp)
+file(WRITE ${headers}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(headers LANGUAGES CXX)\n"
+     "find_package(tanglebin REQUIRED)\nfile(GLOB sources *.cpp)\nadd_library(headers OBJECT \${sources})\n"
+     "target_link_libraries(headers PRIVATE tanglebin::datasets)\n")
+foreach(header IN LISTS installed)
+  string(REPLACE "/" "_" name ${header})
+  file(WRITE ${headers}/${name}.cpp "#include \"${header}\"\n")
+endforeach()
+run(${CMAKE_COMMAND} -S ${headers} -B ${headers}/build -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${work}/installed)
+run(${CMAKE_COMMAND} --build ${headers}/build)

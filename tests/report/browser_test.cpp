@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "../support/temporary_directory.hpp"
-#include "synthetic_results.hpp"
 #include "tanglebin/report/page.hpp"
+#include "tests/report/synthetic_results.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "synthetic_results.hpp"
+#include "tests/report/synthetic_results.hpp"
 
 namespace tanglebin {
 namespace {

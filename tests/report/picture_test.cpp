@@ -10,7 +10,8 @@
 #include <limits>
 
 #include "tanglebin/cloud/label_colors.hpp"
-#include "tanglebin/dataset/configuration.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/scan/scan_output.hpp"
 #include "tanglebin/scan/scanner.hpp"
 #include "tests/scan/scene.hpp"
 #include "tests/support/complaint.hpp"

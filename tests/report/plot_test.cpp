@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "../support/temporary_directory.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <filesystem>
 
-#include "../support/temporary_directory.hpp"
-#include "synthetic_results.hpp"
 #include "tanglebin/base/error.hpp"
+#include "tests/report/synthetic_results.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
 namespace {

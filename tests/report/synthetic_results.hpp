@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "../support/temporary_directory.hpp"
-#include "tanglebin/dataset/images.hpp"
+#include "tanglebin/io/images.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 // Results as an experiment might give them, without the hours that it takes: a results directory whose
 // numbers are drawn, always the same, from curves like those of the paper.

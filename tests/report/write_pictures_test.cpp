@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "../experiment/small_dataset.hpp"
 #include "tanglebin/experiment/run_experiment.hpp"
+#include "tests/experiment/small_dataset.hpp"
 
 namespace tanglebin {
 namespace {
@@ -16,7 +16,7 @@ TEST(WritePictures, DrawsTruthAndLabelsOfTheBestTheMedianAndTheWorstRun) {
   const test::SmallDataset directory;
   const test::TemporaryDirectory results;
   const Dataset dataset = directory.read();
-  const ExperimentSettings settings{.methods = methods(), .ratios = {0.4, 0.9}, .seed = 5};
+  const ExperimentSettings settings{.methods = methods(), .ratios = {0.4, 0.9}, .model = {.seed = 5}};
   run_experiment(dataset, settings, cases(dataset), results.path(), 2);
   write_pictures(results.path(), dataset, settings);
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "scene.hpp"
-#include "tanglebin/scan/intersect.hpp"
+#include "tanglebin/geometry/intersect.hpp"
+#include "tests/scan/scene.hpp"
 
 namespace tanglebin {
 namespace {

@@ -14,9 +14,9 @@
 #include <set>
 #include <vector>
 
-#include "scene.hpp"
 #include "tanglebin/scan/range_error.hpp"
 #include "tanglebin/scan/scanner.hpp"
+#include "tests/scan/scene.hpp"
 
 namespace tanglebin {
 namespace {

@@ -13,8 +13,8 @@
 #include <optional>
 #include <utility>
 
-#include "scene.hpp"
-#include "tanglebin/scan/intersect.hpp"
+#include "tanglebin/geometry/intersect.hpp"
+#include "tests/scan/scene.hpp"
 
 namespace tanglebin {
 namespace {

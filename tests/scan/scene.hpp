@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "tanglebin/base/random.hpp"
-#include "tanglebin/scan/camera.hpp"
-#include "tanglebin/settle/bin.hpp"
-#include "tanglebin/tube/tube.hpp"
+#include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/geometry/camera.hpp"
+#include "tanglebin/geometry/tube.hpp"
 
 namespace tanglebin::test {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "tanglebin/scan/camera.hpp"
+#include "tanglebin/geometry/camera.hpp"
 #include "tanglebin/scan/scanner.hpp"
 #include "tests/support/complaint.hpp"
 
@@ -39,7 +39,7 @@ TEST(Sensor, PresetsAreValidAndOnlyThePapersIsIdeal) {
     EXPECT_EQ(is_ideal(sensor_preset(name)), name == std::string("paper")) << name;
   }
   EXPECT_EQ(test::complaint([] { sensor_preset("eye"); }), test::complaint([] { camera_preset("eye"); }));
-  EXPECT_THAT(test::complaint([] { sensor_preset("eye"); }), HasSubstr("found \"eye\""));
+  EXPECT_THAT(test::complaint([] { sensor_preset("eye"); }), HasSubstr("found 'eye'"));
 }
 
 TEST(Sensor, NamesTheKeyThatMakesNoSenseAndTheRemedy) {

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "scene.hpp"
 #include "tanglebin/scan/projector.hpp"
 #include "tanglebin/scan/scanner.hpp"
+#include "tests/scan/scene.hpp"
 
 namespace tanglebin {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene.hpp"
+#include "tests/scan/scene.hpp"
 
 namespace tanglebin {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <set>
 
-#include "confusions.hpp"
 #include "tanglebin/base/random.hpp"
+#include "tests/score/confusions.hpp"
 
 namespace tanglebin {
 namespace {

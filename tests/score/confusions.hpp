@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "integer.hpp"
 #include "tanglebin/scan/scan.hpp"
 #include "tanglebin/score/confusion.hpp"
+#include "tests/score/integer.hpp"
 
 namespace tanglebin {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "confusions.hpp"
+#include "tests/score/confusions.hpp"
 
 namespace tanglebin {
 namespace {

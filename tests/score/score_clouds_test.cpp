@@ -8,11 +8,11 @@
 #include <sstream>
 #include <string>
 
-#include "integer.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
-#include "tanglebin/cloud/ply.hpp"
-#include "tanglebin/cloud/read_cloud.hpp"
+#include "tanglebin/io/ply.hpp"
+#include "tanglebin/io/read_cloud.hpp"
 #include "tanglebin/scan/scan.hpp"
+#include "tests/score/integer.hpp"
 #include "tests/support/complaint.hpp"
 
 namespace tanglebin {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "confusions.hpp"
+#include "tests/score/confusions.hpp"
 
 namespace tanglebin {
 namespace {

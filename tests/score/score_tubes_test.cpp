@@ -11,9 +11,9 @@
 #include <tuple>
 #include <utility>
 
-#include "integer.hpp"
-#include "tanglebin/tube/generate.hpp"
-#include "tests/tube/example_tubes.hpp"
+#include "tanglebin/generate/generate.hpp"
+#include "tests/geometry/example_tubes.hpp"
+#include "tests/score/integer.hpp"
 
 namespace tanglebin {
 namespace {

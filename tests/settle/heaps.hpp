@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "tanglebin/settle/bin.hpp"
+#include "tanglebin/generate/generate.hpp"
+#include "tanglebin/geometry/bin.hpp"
 #include "tanglebin/settle/spawn.hpp"
-#include "tanglebin/tube/generate.hpp"
-#include "tests/tube/example_tubes.hpp"
+#include "tests/geometry/example_tubes.hpp"
 
 namespace tanglebin::test {
 

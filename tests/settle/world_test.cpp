@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/tube/mass_properties.hpp"
+#include "tanglebin/geometry/mass_properties.hpp"
 #include "tests/settle/heaps.hpp"
 
 namespace tanglebin {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "temporary_directory.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin::test {
 

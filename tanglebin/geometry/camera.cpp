@@ -1,0 +1,108 @@
+#include "tanglebin/geometry/camera.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/base/text.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+void require(bool valid, const char* field, const std::string& found, const char* expected) {
+  if (!valid) throw InputError({.file = "", .line = 0, .field = field}, found, expected);
+}
+
+void require_pixels(int count, const char* field) {
+  require(count > 0, field, std::to_string(count), "a positive number of pixels");
+}
+
+void require_focal_length(double pixels, const char* field) {
+  require(std::isfinite(pixels) && pixels > 0, field, std::to_string(pixels),
+          "a finite positive number of pixels");
+}
+
+void require_coordinate(double pixels, const char* field) {
+  require(std::isfinite(pixels), field, std::to_string(pixels), "a finite number of pixels");
+}
+
+bool is_rotation(const Eigen::Matrix3d& matrix) {
+  constexpr double tolerance = 1e-6;
+  return matrix.isUnitary(tolerance) && matrix.determinant() > 0;
+}
+
+}  // namespace
+
+Camera downward_camera(int width, int height, double focal_length_px, const Vector3d& position) {
+  Camera camera;
+  camera.width = width;
+  camera.height = height;
+  camera.fx = camera.fy = focal_length_px;
+  camera.cx = (width - 1) / 2.0;
+  camera.cy = (height - 1) / 2.0;
+  // z down and x along the world's x leave −y of the world for the image's y.
+  camera.pose.linear() = Vector3d(1, -1, -1).asDiagonal();
+  camera.pose.translation() = position;
+  return camera;
+}
+
+double focal_length_from_hfov(int width, double hfov) {
+  return width / (2 * std::tan(hfov / 2));
+}
+
+Camera camera_preset(std::string_view name) {
+  constexpr int width = 1920;
+  constexpr int height = 1200;
+  const Vector3d position(0, 0, 2);
+  if (name == "paper" || name == "gaussian") {
+    return downward_camera(width, height, focal_length_from_hfov(width, 1.22), position);
+  }
+  if (name == "zivid-one-plus-l") return downward_camera(width, height, 2730, position);
+  if (name == "kinect-v1") return downward_camera(640, 480, 585, Vector3d(0, 0, 1));
+  throw InputError({.file = "", .line = 0, .field = "scanner"}, excerpt(name),
+                   "paper, gaussian, zivid-one-plus-l or kinect-v1");
+}
+
+Ray ray_through(const Camera& camera, double u, double v) {
+  const Vector3d direction((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1);
+  return {camera.pose.translation(), (camera.pose.linear() * direction).normalized()};
+}
+
+std::optional<Vector2d> project(const Camera& camera, const Vector3d& point) {
+  const Vector3d p = camera.pose.linear().transpose() * (point - camera.pose.translation());
+  if (p.z() <= 0) return std::nullopt;
+  return Vector2d(camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy);
+}
+
+std::optional<PixelPosition> pixel_of(const Camera& camera, const Vector3d& point) {
+  const std::optional<Vector2d> image = project(camera, point);
+  if (!image) return std::nullopt;
+  // A pixel reaches half a pixel to each side of its centre.
+  const Vector2d from_corner = image->array() + 0.5;
+  const bool is_inside = from_corner.x() >= 0 && from_corner.y() >= 0 && from_corner.x() < camera.width &&
+                         from_corner.y() < camera.height;
+  if (!is_inside) return std::nullopt;
+  return PixelPosition{static_cast<int>(from_corner.x()), static_cast<int>(from_corner.y())};
+}
+
+double depth_of(const Camera& camera, const Vector3d& point) {
+  return camera.pose.linear().col(2).dot(point - camera.pose.translation());
+}
+
+void validate(const Camera& camera) {
+  require_pixels(camera.width, "scanner.width");
+  require_pixels(camera.height, "scanner.height");
+  require_focal_length(camera.fx, "scanner.fx");
+  require_focal_length(camera.fy, "scanner.fy");
+  require_coordinate(camera.cx, "scanner.cx");
+  require_coordinate(camera.cy, "scanner.cy");
+  require(camera.pose.translation().allFinite(), "scanner.pose", "a position that is not finite",
+          "finite coordinates");
+  require(is_rotation(camera.pose.linear()), "scanner.pose", "an orientation that is not a rotation",
+          "a right-handed orthonormal frame");
+}
+
+}  // namespace tanglebin

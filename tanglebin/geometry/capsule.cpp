@@ -1,0 +1,44 @@
+#include "tanglebin/geometry/capsule.hpp"
+
+#include <algorithm>
+
+namespace tanglebin {
+
+double nearest_on_axis(const Capsule& capsule, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d axis = capsule.b - capsule.a;
+  const double square = axis.squaredNorm();
+  return square > 0 ? std::clamp((point - capsule.a).dot(axis) / square, 0.0, 1.0) : 0.0;
+}
+
+double axis_distance(const Capsule& capsule, const Eigen::Vector3d& point) {
+  const double t = nearest_on_axis(capsule, point);
+  return (capsule.a + t * (capsule.b - capsule.a) - point).norm();
+}
+
+SegmentPair closest_points(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
+                           const Eigen::Vector3d& q1) {
+  const Eigen::Vector3d p = p1 - p0;
+  const Eigen::Vector3d q = q1 - q0;
+  const Eigen::Vector3d r = p0 - q0;
+  const double pp = p.squaredNorm();
+  const double qq = q.squaredNorm();
+  const double pq = p.dot(q);
+  const double pr = p.dot(r);
+  const double qr = q.dot(r);
+
+  // The parameter on one segment that is nearest to a given point of the other; a point segment has only 0.
+  const auto nearest_on_p = [&](double t) { return pp > 0 ? std::clamp((pq * t - pr) / pp, 0.0, 1.0) : 0.0; };
+  const auto nearest_on_q = [&](double s) { return qq > 0 ? std::clamp((pq * s + qr) / qq, 0.0, 1.0) : 0.0; };
+
+  const double determinant = pp * qq - pq * pq;  // 0 for parallel segments: any s will do to start from
+  double s = determinant > 0 ? std::clamp((pq * qr - qq * pr) / determinant, 0.0, 1.0) : 0.0;
+  const double t = nearest_on_q(s);
+  s = nearest_on_p(t);
+  return {(r + s * p - t * q).norm(), s, t};
+}
+
+double surface_distance(const Capsule& first, const Capsule& second) {
+  return closest_points(first.a, first.b, second.a, second.b).distance - first.radius - second.radius;
+}
+
+}  // namespace tanglebin

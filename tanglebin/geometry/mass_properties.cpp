@@ -1,0 +1,168 @@
+#include "tanglebin/geometry/mass_properties.hpp"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+// The solid is cut into thin rods. Each capsule is a bundle of rods parallel to its axis; a rod ends at the
+// capsule's surface and leaves out what earlier capsules fill. Where rods end is exact, so the quadrature is
+// over the capsule's cross-section alone: with c = √(1 − ρ²/r²), the area element is r² c dc dφ, and the
+// moments of a lone capsule are polynomials in c, cos φ and sin φ that the rule below integrates exactly.
+// Error, from twenty-five times as many rods on 200 tubes each: volume and inertia of the paper's chains
+// within 0.0001 %, of trees and of chains that fold back on themselves within 0.04 %; centre within 0.03 mm.
+
+namespace tanglebin {
+namespace {
+
+using Rule = boost::math::quadrature::gauss<double, 10>;
+constexpr int azimuths = 24;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Line {
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;  // unit
+};
+
+// From low to high along a line; nothing where high < low.
+struct Interval {
+  double low = infinity;
+  double high = -infinity;
+};
+
+Interval intersection(const Interval& a, const Interval& b) {
+  return {std::max(a.low, b.low), std::min(a.high, b.high)};
+}
+
+Interval hull(const Interval& a, const Interval& b) {
+  if (a.high < a.low) return b;
+  if (b.high < b.low) return a;
+  return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+
+// Where a t² + 2 b t + c ≤ 0, for a ≥ 0.
+Interval below_zero(double a, double b, double c) {
+  constexpr double parallel = 1e-12;
+  if (a < parallel) return c <= 0 ? Interval{-infinity, infinity} : Interval{};
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0) return {};
+  const double root = std::sqrt(discriminant);
+  return {(-b - root) / a, (-b + root) / a};
+}
+
+Interval inside_sphere(const Line& line, const Eigen::Vector3d& centre, double radius) {
+  const Eigen::Vector3d offset = line.origin - centre;
+  return below_zero(1, offset.dot(line.direction), offset.squaredNorm() - radius * radius);
+}
+
+// Between the planes through a and b across a–b.
+Interval inside_slab(double slope, double start, double length) {
+  if (slope == 0) return start >= 0 && start <= length ? Interval{-infinity, infinity} : Interval{};
+  const double at_a = -start / slope;
+  const double at_b = (length - start) / slope;
+  return {std::min(at_a, at_b), std::max(at_a, at_b)};
+}
+
+Interval inside_cylinder(const Line& line, const Capsule& capsule) {
+  const double length = (capsule.b - capsule.a).norm();
+  if (length == 0) return {};
+  const Eigen::Vector3d axis = (capsule.b - capsule.a) / length;
+  const Eigen::Vector3d offset = line.origin - capsule.a;
+  const double slope = line.direction.dot(axis);
+  const double start = offset.dot(axis);
+  const Eigen::Vector3d across_direction = line.direction - slope * axis;
+  const Eigen::Vector3d across_offset = offset - start * axis;
+  return intersection(inside_slab(slope, start, length),
+                      below_zero(across_direction.squaredNorm(), across_offset.dot(across_direction),
+                                 across_offset.squaredNorm() - capsule.radius * capsule.radius));
+}
+
+// A capsule is convex: a line meets it in one interval, whatever parts of it the line passes.
+Interval inside_capsule(const Line& line, const Capsule& capsule) {
+  return hull(inside_cylinder(line, capsule), hull(inside_sphere(line, capsule.a, capsule.radius),
+                                                   inside_sphere(line, capsule.b, capsule.radius)));
+}
+
+// Volume and its first and second moments.
+struct Moments {
+  double volume = 0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+
+  void add_rod(const Line& line, double low, double high, double area) {
+    const double length = high - low;
+    const Eigen::Vector3d middle = line.origin + (low + high) / 2 * line.direction;
+    volume += area * length;
+    first += area * length * middle;
+    second +=
+        area * length *
+        (middle * middle.transpose() + length * length / 12 * line.direction * line.direction.transpose());
+  }
+};
+
+// Adds the part of a rod that is in none of the `filled` capsules.
+void add_free_parts(const Line& line, const Interval& rod, double area, const std::vector<Capsule>& filled,
+                    std::vector<Interval>& taken, Moments& moments) {
+  taken.clear();
+  for (const Capsule& capsule : filled) {
+    const Interval inside = intersection(rod, inside_capsule(line, capsule));
+    if (inside.low < inside.high) taken.push_back(inside);
+  }
+  std::ranges::sort(taken, {}, &Interval::low);
+  double low = rod.low;
+  for (const Interval& part : taken) {
+    if (low < part.low) moments.add_rod(line, low, part.low, area);
+    low = std::max(low, part.high);
+  }
+  if (low < rod.high) moments.add_rod(line, low, rod.high, area);
+}
+
+// Adds one capsule less the `filled` ones; `origin` is where moments are taken about.
+void add_capsule(const Tube& tube, const Edge& edge, const Eigen::Vector3d& origin,
+                 const std::vector<Capsule>& filled, Moments& moments) {
+  const Eigen::Matrix3d axes = edge.rotation.toRotationMatrix();
+  std::vector<Interval> taken;
+  const auto add_ring = [&](double c, double weight) {
+    const double rho = tube.radius * std::sqrt(1 - c * c);
+    const double reach = edge.length / 2 + tube.radius * c;
+    const double area = weight * tube.radius * tube.radius * c * 2 * std::numbers::pi / azimuths;
+    for (int i = 0; i < azimuths; ++i) {
+      const double phi = 2 * std::numbers::pi * i / azimuths;
+      const Eigen::Vector3d across = axes * Eigen::Vector3d(rho * std::cos(phi), rho * std::sin(phi), 0);
+      add_free_parts({edge.centre - origin + across, axes.col(2)}, {-reach, reach}, area, filled, taken,
+                     moments);
+    }
+  };
+  for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {  // the rule is on [−1, 1], c in [0, 1]
+    const double weight = Rule::weights()[i] / 2;
+    add_ring((1 - Rule::abscissa()[i]) / 2, weight);
+    add_ring((1 + Rule::abscissa()[i]) / 2, weight);
+  }
+}
+
+}  // namespace
+
+MassProperties mass_properties(const Tube& tube) {
+  const Eigen::Vector3d origin = tube.nodes.front().position;  // near the tube, so that no digits cancel
+  std::vector<Capsule> all = capsules(tube);
+  for (Capsule& capsule : all) capsule = {capsule.a - origin, capsule.b - origin, capsule.radius};
+
+  Moments moments;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::vector<Capsule> filled;
+    std::copy_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(i), std::back_inserter(filled),
+                 [&](const Capsule& earlier) { return surface_distance(earlier, all[i]) < 0; });
+    add_capsule(tube, tube.edges[i], origin, filled, moments);
+  }
+
+  const Eigen::Vector3d centre = moments.first / moments.volume;
+  const Eigen::Matrix3d spread = moments.second / moments.volume - centre * centre.transpose();
+  const Eigen::Matrix3d inertia = tube.mass * (spread.trace() * Eigen::Matrix3d::Identity() - spread);
+  return {tube.mass, moments.volume, origin + centre, (inertia + inertia.transpose()) / 2};
+}
+
+}  // namespace tanglebin

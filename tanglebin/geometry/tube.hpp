@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <vector>
+
+#include "tanglebin/geometry/capsule.hpp"
+
+namespace tanglebin {
+
+/// A sphere: an end, a joint or a junction of a tube.
+struct Node {
+  int id;                    ///< unique in its tube; the named nodes (ends, junctions) are 1, 2, …
+  Eigen::Vector3d position;  ///< m, world frame
+};
+
+/// A cylinder between two nodes.
+struct Edge {
+  std::size_t from;             ///< index into Tube::nodes
+  std::size_t to;               ///< index into Tube::nodes
+  int order;                    ///< 1, 2, … along its segment
+  Eigen::Vector3d centre;       ///< m, the midpoint of the two nodes
+  Eigen::Quaterniond rotation;  ///< turns +z onto the direction from → to
+  double length;                ///< m
+};
+
+/// A tube is a tree of nodes (spheres) and edges (cylinders) of one radius, so its surface is that of a union
+/// of capsules (paper, Section 3, with a sphere at every node as in the published data).
+struct Tube {
+  int id = 1;           ///< 1, 2, …; also the label of its points
+  double radius = 0.0;  ///< m
+  double mass = 0.0;    ///< kg; 0 where it is not known (the text format does not carry it)
+  std::vector<Node> nodes;
+  std::vector<Edge> edges;
+};
+
+/// The capsule of one edge.
+Capsule capsule(const Tube& tube, const Edge& edge);
+
+/// The capsules of all edges, in their order.
+std::vector<Capsule> capsules(const Tube& tube);
+
+/// The sum of the edges' lengths, m.
+double total_length(const Tube& tube);
+
+/// The smallest axis-aligned box around the tube's surface, m.
+Eigen::AlignedBox3d bounds(const Tube& tube);
+
+/// Moves the tube as a rigid body.
+void transform(Tube& tube, const Eigen::Isometry3d& motion);
+
+/// Rounds positions, lengths and rotations to what the text format holds: nine decimals.
+void round_to_nanometres(Tube& tube);
+
+}  // namespace tanglebin

@@ -1,0 +1,58 @@
+#include "tanglebin/io/cloud_input.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <istream>
+#include <system_error>
+
+namespace tanglebin::cloud_format {
+namespace {}  // namespace
+
+std::optional<std::string_view> CloudInput::next_line() {
+  stream_.getline(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  auto length = static_cast<std::size_t>(stream_.gcount());
+  if (stream_.fail() && length == 0) return std::nullopt;
+  ++line_;
+  if (stream_.fail()) throw InputError(place(), fmt::format("line of more than {} bytes", length));
+  if (!stream_.eof()) --length;  // the line feed, counted but not stored
+  std::string_view line(buffer_.data(), length);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+std::size_t CloudInput::read(std::byte* to, std::size_t size) {
+  stream_.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(size));
+  return static_cast<std::size_t>(stream_.gcount());
+}
+
+std::size_t CloudInput::skip(std::size_t size) {
+  stream_.ignore(static_cast<std::streamsize>(size));
+  return static_cast<std::size_t>(stream_.gcount());
+}
+
+bool CloudInput::at_end() {
+  return stream_.peek() == std::istream::traits_type::eof();
+}
+
+std::size_t CloudInput::remaining() {
+  const std::istream::pos_type here = stream_.tellg();
+  if (here == std::istream::pos_type(-1)) return 0;
+  stream_.seekg(0, std::ios::end);
+  const std::istream::pos_type end = stream_.tellg();
+  stream_.seekg(here);
+  return end > here ? static_cast<std::size_t>(end - here) : 0;
+}
+
+std::ifstream open_cloud(const std::filesystem::path& file) {
+  // Linux opens a directory for reading without complaint.
+  if (std::filesystem::is_directory(file)) throw InputError({file.string(), 0, ""}, "is a directory");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw InputError({file.string(), 0, ""}, "cannot be opened: " + std::generic_category().message(errno));
+  }
+  return stream;
+}
+
+}  // namespace tanglebin::cloud_format

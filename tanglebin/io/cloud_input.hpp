@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tanglebin/base/error.hpp"
+
+// Internal to the room: what read_ply() and read_pcd() read from.
+namespace tanglebin::cloud_format {
+
+/// A cloud file while it is read: a text header, then text or binary data. May be a pipe, and never takes
+/// more memory than the data that is really there calls for.
+class CloudInput {
+public:
+  CloudInput(std::istream& stream, std::string file) : stream_(stream), file_(std::move(file)) {}
+
+  /// The next line without its end (LF or CRLF), valid until the next call; none at the end of the file.
+  /// Throws InputError for a line longer than any that makes sense: binary data, or an endless stream.
+  std::optional<std::string_view> next_line();
+
+  /// Reads up to `size` bytes; fewer only at the end of the file.
+  std::size_t read(std::byte* to, std::size_t size);
+
+  /// Passes over up to `size` bytes; fewer only at the end of the file.
+  std::size_t skip(std::size_t size);
+
+  bool at_end();
+
+  /// Bytes to come, as far as that is known: 0 for a pipe.
+  std::size_t remaining();
+
+  const std::string& file() const { return file_; }
+  std::size_t line() const { return line_; }
+
+  /// The line read last, for an error in it.
+  InputPlace place(std::string field = "") const { return {file_, line_, std::move(field)}; }
+
+  /// The file as a whole, or one of its values that is on no line.
+  InputPlace place_in_file(std::string field = "") const { return {file_, 0, std::move(field)}; }
+
+private:
+  std::istream& stream_;
+  std::string file_;
+  std::size_t line_ = 0;
+  std::array<char, 1 << 16> buffer_;
+};
+
+/// Opens a file for reading; throws InputError where that is not possible.
+std::ifstream open_cloud(const std::filesystem::path& file);
+
+}  // namespace tanglebin::cloud_format

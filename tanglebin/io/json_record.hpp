@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// Internal to the library: the JSON of datasets and results.
+namespace tanglebin {
+
+using Json = nlohmann::ordered_json;
+
+/// Seeds are hexadecimal text, since many readers of JSON take a number for a double, which cannot hold all
+/// of a seed.
+std::string seed_text(std::uint64_t seed);
+
+/// A JSON object of a file, whose values are read by name. Every function throws InputError with file, line
+/// and field for a value that is missing or another than is expected.
+class JsonRecord {
+public:
+  JsonRecord(const std::string& text, std::string file, std::size_t line);
+
+  bool has(const std::string& field) const { return json_.contains(field); }
+  std::vector<std::string> fields() const;
+  const Json& json() const { return json_; }
+
+  std::string text(const std::string& field) const;
+  std::vector<std::string> texts(const std::string& field) const;
+  std::uint64_t whole_number(const std::string& field) const;
+  int positive_int(const std::string& field) const;
+  std::uint64_t seed(const std::string& field) const;
+
+  double number(const std::string& field, double least = -infinity, double greatest = infinity) const;
+  std::optional<double> number_or_null(const std::string& field, double least, double greatest) const;
+  std::vector<double> numbers(const std::string& field, double least, double greatest) const;
+
+  JsonRecord object(const std::string& field) const;
+  std::vector<JsonRecord> objects(const std::string& field) const;
+
+  /// Throws the InputError of a field.
+  [[noreturn]] void fail(const std::string& field, const std::string& found,
+                         const std::string& expected) const;
+
+private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  JsonRecord(Json json, const JsonRecord& parent, const std::string& field);
+
+  const Json& at(const std::string& field) const;
+  const Json& list(const std::string& field) const;
+  std::string text(const std::string& field, const Json& value) const;
+  double number(const std::string& field, const Json& value, double least, double greatest) const;
+
+  std::string file_;
+  std::size_t line_;
+  std::string prefix_;  ///< of its fields: "files[2]."
+  Json json_;
+};
+
+}  // namespace tanglebin

@@ -1,0 +1,81 @@
+#include "tanglebin/model/axis/assemble.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "tanglebin/model/axis/junctions.hpp"
+
+namespace tanglebin {
+namespace {
+
+/// The nodes that a fragment has in a line.
+struct FragmentNodes {
+  std::size_t first;
+  std::vector<std::size_t> ends;
+};
+
+// The fragment's centre line, out to its ends.
+FragmentNodes add_fragment(LineTree& line, const Fragment& fragment) {
+  const std::size_t offset = line.nodes.size();
+  line.nodes.insert(line.nodes.end(), fragment.nodes.begin(), fragment.nodes.end());
+  for (std::size_t node = 1; node < fragment.nodes.size(); ++node) {
+    line.edges.push_back({offset + fragment.parents[node], offset + node});
+  }
+  std::vector<std::size_t> end_nodes;
+  for (const FragmentEnd& end : fragment.ends) {
+    std::size_t node = offset + end.node;
+    if (std::ranges::find(end_nodes, node) != end_nodes.end()) {
+      // The second end of a fragment of one node.
+      line.edges.push_back({node, line.nodes.size()});
+      node = line.nodes.size();
+      line.nodes.emplace_back();
+    }
+    line.nodes[node] = end.position;
+    end_nodes.push_back(node);
+  }
+  return {offset, std::move(end_nodes)};
+}
+
+// The node of the line that a link leads to. A junction beyond an end is a new one, and from then on that
+// end.
+std::size_t target_node(LineTree& line, FragmentNodes& fragment, const Link& link) {
+  if (!link.to.end) return fragment.first + link.to.node;
+  std::size_t& end = fragment.ends[*link.to.end];
+  if (link.kind == LinkKind::junction) {
+    line.edges.push_back({end, line.nodes.size()});
+    end = line.nodes.size();
+    line.nodes.push_back(link.to.position);
+  }
+  return end;
+}
+
+LineTree assemble(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
+                  const std::vector<Link>& links, const std::vector<std::size_t>& chosen) {
+  LineTree line;
+  std::map<std::size_t, FragmentNodes> added;
+  for (const std::size_t member : members) added[member] = add_fragment(line, fragments[member]);
+  std::vector<std::size_t> of_members;
+  std::ranges::copy_if(chosen, std::back_inserter(of_members),
+                       [&](std::size_t i) { return added.contains(links[i].fragment); });
+  // Junctions first: a link to an end that has one beyond it starts from there.
+  std::stable_partition(of_members.begin(), of_members.end(),
+                        [&](std::size_t i) { return links[i].kind == LinkKind::junction; });
+  for (const std::size_t i : of_members) {
+    const Link& link = links[i];
+    const std::size_t target = target_node(line, added[link.to.fragment], link);
+    line.edges.push_back({added[link.fragment].ends[link.end], target});
+  }
+  return line;
+}
+
+}  // namespace
+
+LineTree assembled_line(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
+                        const std::vector<Link>& links, const std::vector<std::size_t>& chosen,
+                        double radius) {
+  return with_junctions_drawn_back(assemble(fragments, members, links, chosen), radius);
+}
+
+}  // namespace tanglebin

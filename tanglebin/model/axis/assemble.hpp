@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tanglebin/model/axis/fragments.hpp"
+#include "tanglebin/model/axis/line_tree.hpp"
+#include "tanglebin/model/axis/links.hpp"
+
+namespace tanglebin {
+
+/// The centre line of the tube of this radius, m, that some fragments (`members`) make together: the lines of
+/// these, the ways between them of those chosen links that are theirs, and junctions drawn back.
+LineTree assembled_line(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
+                        const std::vector<Link>& links, const std::vector<std::size_t>& chosen,
+                        double radius);
+
+}  // namespace tanglebin

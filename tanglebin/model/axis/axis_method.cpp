@@ -1,0 +1,98 @@
+#include "tanglebin/model/axis/axis_method.hpp"
+
+#include <algorithm>
+
+#include "tanglebin/base/picked.hpp"
+#include "tanglebin/geometry/labels.hpp"
+#include "tanglebin/model/axis/choose_links.hpp"
+#include "tanglebin/model/axis/kinds.hpp"
+#include "tanglebin/model/scene/range_image.hpp"
+#include "tanglebin/model/scene/step_clock.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3f;
+
+// The points of a tube's fragments are that tube's.
+void claim_points(std::vector<std::int32_t>& labels, const Tube& tube,
+                  const std::vector<std::size_t>& fragments, const AxisSteps& steps,
+                  const std::vector<std::size_t>& filtered) {
+  for (const std::size_t fragment : fragments) {
+    for (const std::size_t point : steps.fragments[fragment].points) labels[filtered[point]] = tube.id;
+  }
+}
+
+// How many of something the steps left, of all kinds.
+template <typename Count>
+std::size_t total(const std::vector<AxisSteps>& kinds, Count count) {
+  std::size_t sum = 0;
+  for (const AxisSteps& steps : kinds) sum += count(steps);
+  return sum;
+}
+
+std::size_t number_of_votes(const AxisSteps& steps) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(steps.votes.votes, [](const Vector3f& vote) { return vote.allFinite(); }));
+}
+
+}  // namespace
+
+AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double ratio, std::uint64_t seed,
+                        const AxisSettings& settings) {
+  AxisModel result;
+  Model& model = result.model;
+  StepClock clock(model.steps);
+  const auto for_each_kind = [&](auto step) {
+    for (std::size_t i = 0; i < known.kinds.size(); ++i) step(result.kinds[i], known.kinds[i]);
+  };
+
+  const std::vector<std::size_t> cropped = crop(cloud, known.bin, settings.filter);
+  model.filtered = downsample(cropped, ratio, seed);
+  const std::vector<Vector3f> points = picked(cloud.points, model.filtered);
+  clock.end_step("filter", points.size(), "points");
+
+  const std::vector<std::vector<Vector3f>> by_kind =
+      points_by_kind(points, known, settings.vote, settings.fragment);
+  result.kinds.resize(known.kinds.size());
+  for (std::size_t i = 0; i < known.kinds.size(); ++i) {
+    result.kinds[i].votes =
+        vote_for_axes(by_kind[i], known.bin, known.camera, known.kinds[i].radius, settings.vote);
+  }
+  clock.end_step("vote", total(result.kinds, number_of_votes), "votes");
+
+  for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
+    steps.fragments = find_fragments(steps.votes, kind.radius, kind.branches(), settings.fragment);
+  });
+  clock.end_step("fragment", total(result.kinds, [](const auto& steps) { return steps.fragments.size(); }),
+                 "fragments");
+
+  const RangeImage seen(cloud, known.camera);
+  for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
+    steps.links = find_links(steps.fragments, seen, kind, settings.link);
+    steps.chosen = choose_links(steps.fragments, steps.links, kind, settings.link);
+    steps.tubes = linked_fragments(steps.fragments.size(), steps.links, steps.chosen);
+  });
+  clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");
+
+  std::vector<std::int32_t> claimed(cloud.points.size(), null_label);
+  for_each_kind([&](const AxisSteps& steps, const TubeKind& kind) {
+    for (const std::vector<std::size_t>& fragments : steps.tubes) {
+      Tube tube =
+          fit_tube(steps.fragments, fragments, steps.links, steps.chosen, points, kind.radius, settings.fit);
+      tube.id = static_cast<int>(model.tubes.size()) + 1;
+      claim_points(claimed, tube, fragments, steps, model.filtered);
+      model.tubes.push_back(std::move(tube));
+    }
+  });
+  clock.end_step("fit", model.tubes.size(), "tubes");
+
+  model.labels = label_points(cloud, cropped, claimed, model.tubes, settings.label);
+  clock.end_step("label",
+                 static_cast<std::size_t>(std::ranges::count_if(
+                     model.labels, [](std::int32_t label) { return label > bin_label; })),
+                 "points");
+  return result;
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,64 @@
+#include "tanglebin/model/axis/axis_votes.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3f;
+
+/// Floor and walls of a bin, single precision.
+using BinBoxes = std::array<Eigen::AlignedBox3f, 5>;
+
+BinBoxes boxes_of(const Bin& bin) {
+  BinBoxes result;
+  std::ranges::transform(boxes(bin), result.begin(),
+                         [](const auto& box) { return box.template cast<float>(); });
+  return result;
+}
+
+bool is_clear_of(const BinBoxes& bin, const Vector3f& axis, float clearance) {
+  return std::ranges::none_of(
+      bin, [&](const auto& box) { return box.squaredExteriorDistance(axis) < clearance * clearance; });
+}
+
+std::vector<Vector3f> without_floor(const std::vector<Vector3f>& points, double margin) {
+  std::vector<Vector3f> kept = points;
+  for (Vector3f& point : kept) {
+    if (point.z() < margin) point.setConstant(std::numeric_limits<float>::quiet_NaN());
+  }
+  return kept;
+}
+
+}  // namespace
+
+AxisVotes vote_for_axes(const std::vector<Vector3f>& points, const Bin& bin, const Camera& camera,
+                        double radius, const VoteSettings& settings) {
+  const Vector3f nothing = Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  AxisVotes result{std::vector(points.size(), nothing), std::vector(points.size(), nothing)};
+
+  const auto depth = static_cast<float>(radius);  // of the axis under the surface
+  const float clearance = depth * (1 - static_cast<float>(settings.bin_tolerance));
+  const BinBoxes solid = boxes_of(bin);
+  const PixelGrid grid(without_floor(points, settings.floor_margin * radius), camera);
+  const float reach = suitable_reach(grid, radius, settings.patch);
+  const std::vector<std::optional<Patch>> patches = surface_patches(grid, reach, settings.patch);
+  for (std::size_t item = 0; item < patches.size(); ++item) {
+    if (!patches[item]) continue;
+    const Patch& patch = *patches[item];
+    // The plane passes below the surface by the mean sagitta of the arc that the neighbours are on: their
+    // variance across the tube over its diameter.
+    const float sagitta = patch.breadth * reach * reach / (2 * depth);
+    const Vector3f axis = grid.point(item) + patch.mean - patch.normal * (depth - sagitta);
+    if (!is_clear_of(solid, axis, clearance)) continue;
+    result.votes[grid.indices()[item]] = axis;
+    result.normals[grid.indices()[item]] = patch.normal;
+  }
+  return result;
+}
+
+}  // namespace tanglebin

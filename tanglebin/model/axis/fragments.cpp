@@ -1,0 +1,159 @@
+#include "tanglebin/model/axis/fragments.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "tanglebin/model/axis/skeleton.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// What the points near the end of a fragment say of it.
+struct Surroundings {
+  std::vector<Vector3d> votes;  ///< m, relative to the end
+  Vector3d mean;                ///< of the votes, m, relative to the end
+  Matrix3d spread;              ///< of the votes, m²
+  Vector3d normal;              ///< mean of the normals n
+  Matrix3d normals;             ///< mean of n nᵀ
+};
+
+Surroundings surroundings(const Vector3d& end, const std::vector<std::size_t>& points, const AxisVotes& votes,
+                          double reach) {
+  std::vector<Vector3d> near;
+  Vector3d sum = Vector3d::Zero();
+  Matrix3d products = Matrix3d::Zero();
+  Vector3d sum_of_normals = Vector3d::Zero();
+  Matrix3d products_of_normals = Matrix3d::Zero();
+  for (const std::size_t point : points) {
+    const Vector3d d = votes.votes[point].cast<double>() - end;
+    if (d.squaredNorm() > reach * reach) continue;
+    const Vector3d normal = votes.normals[point].cast<double>();
+    near.push_back(d);
+    sum += d;
+    products += d * d.transpose();
+    sum_of_normals += normal;
+    products_of_normals += normal * normal.transpose();
+  }
+  const auto count = static_cast<double>(near.size());
+  const Vector3d mean = sum / count;
+  return {std::move(near), mean, products / count - mean * mean.transpose(), sum_of_normals / count,
+          products_of_normals / count};
+}
+
+// Of a tube that is seen end-on its cap alone may have votes: all in one place, from normals that go all
+// ways.
+bool is_cap(const Surroundings& around, double radius, const FragmentSettings& settings) {
+  if (std::sqrt(around.spread.trace()) > settings.spot_max * radius) return false;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(around.normals, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0] > settings.cap_min;
+}
+
+// The axis is where the votes are spread out, and square to the normals: a short piece that shows much of its
+// circumference has a direction too. Behind a cap the tube goes on away from the normals.
+Vector3d direction(const Surroundings& around, double radius, const FragmentSettings& settings) {
+  if (is_cap(around, radius, settings)) return -around.normal.normalized();
+  const double unit = settings.step * radius;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(around.normals - around.spread / (unit * unit));
+  return solver.eigenvectors().col(0);
+}
+
+// How far the votes go out, m; the last of them are left to the noise.
+double extent(const std::vector<Vector3d>& votes, const Vector3d& outward, double least) {
+  std::vector<double> along;
+  along.reserve(votes.size());
+  for (const Vector3d& vote : votes) along.push_back(vote.dot(outward));
+  constexpr double share = 0.02;
+  const auto last = along.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(along.size()));
+  std::ranges::nth_element(along, last, std::greater<>());
+  return std::max(*last, least);
+}
+
+std::vector<std::size_t> leaves(const std::vector<std::size_t>& parents) {
+  std::vector<std::size_t> neighbours(parents.size());
+  for (std::size_t node = 1; node < parents.size(); ++node) {
+    ++neighbours[node];
+    ++neighbours[parents[node]];
+  }
+  std::vector<std::size_t> found;
+  for (std::size_t node = 0; node < parents.size(); ++node) {
+    if (neighbours[node] <= 1) found.push_back(node);
+  }
+  return found;
+}
+
+std::vector<FragmentEnd> ends_of(const Fragment& fragment, const AxisVotes& votes, double radius,
+                                 const FragmentSettings& settings) {
+  std::vector<FragmentEnd> ends;
+  for (const std::size_t leaf : leaves(fragment.parents)) {
+    const Vector3d& end = fragment.nodes[leaf];
+    const Surroundings around = surroundings(end, fragment.points, votes, settings.end_length * radius);
+    Vector3d outward = direction(around, radius, settings);
+    if (outward.dot(around.mean) > 0) outward = -outward;
+    const double least = settings.extent_min * radius;
+    ends.push_back({leaf, end + extent(around.votes, outward, least) * outward, outward});
+  }
+  // A fragment of one node ends there both ways; one of two nodes may be too short to tell its ends apart.
+  if (ends.size() == 1) ends.push_back({ends[0].node, ends[0].position, -ends[0].outward});
+  constexpr std::size_t two_nodes = 2;
+  if (fragment.nodes.size() == two_nodes && ends[0].outward.dot(ends[1].outward) > 0) {
+    ends[1].outward = -ends[1].outward;
+  }
+  return ends;
+}
+
+// The votes of a surface that is no tube's, a plane or a ball, are spread out.
+bool is_thin(const Skeleton& skeleton, const AxisVotes& votes, double spread_max) {
+  // Some votes all over the fragment: multiples of the golden ratio, which no regular order of points
+  // repeats.
+  constexpr int looked_at = 100;
+  int near = 0;
+  for (int i = 0; i < looked_at; ++i) {
+    double whole = 0;
+    const double share = std::modf(i * std::numbers::phi, &whole);
+    const auto place = static_cast<std::size_t>(share * static_cast<double>(skeleton.points.size()));
+    const Vector3d vote = votes.votes[skeleton.points[place]].cast<double>();
+    if (std::ranges::any_of(skeleton.nodes,
+                            [&](const Vector3d& node) { return (node - vote).norm() < spread_max; })) {
+      ++near;
+    }
+  }
+  return 2 * near >= looked_at;
+}
+
+double length_of(const Fragment& fragment) {
+  double length = 0;
+  for (std::size_t node = 1; node < fragment.nodes.size(); ++node) {
+    length += (fragment.nodes[node] - fragment.nodes[fragment.parents[node]]).norm();
+  }
+  return length;
+}
+
+}  // namespace
+
+std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
+                                     const FragmentSettings& settings) {
+  const double branch_min =
+      with_branches ? settings.branch_min * radius : std::numeric_limits<double>::infinity();
+  std::vector<Fragment> fragments;
+  for (Skeleton& skeleton :
+       find_skeletons(votes.votes, settings.voxel * radius, settings.step * radius, branch_min)) {
+    if (skeleton.points.size() < static_cast<std::size_t>(settings.points_min)) continue;
+    if (!is_thin(skeleton, votes, settings.spread_max * radius)) continue;
+    Fragment fragment{
+        std::move(skeleton.points), std::move(skeleton.nodes), std::move(skeleton.parents), {}, 0};
+    fragment.ends = ends_of(fragment, votes, radius, settings);
+    fragment.length = length_of(fragment);
+    fragments.push_back(std::move(fragment));
+  }
+  return fragments;
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <boost/container/small_vector.hpp>
+#include <cstddef>
+#include <vector>
+
+#include "tanglebin/model/scene/segment_tree.hpp"
+
+namespace tanglebin {
+
+/// A centre line that may branch: a tree.
+struct LineTree {
+  std::vector<Eigen::Vector3d> nodes;  ///< m
+  std::vector<std::array<std::size_t, 2>> edges;
+};
+
+/// The nodes that edges lead to from one: two but for ends and junctions.
+using Neighbours = boost::container::small_vector<std::size_t, 3>;
+
+/// Of each node.
+std::vector<Neighbours> neighbours_in(const LineTree& line);
+
+/// The nodes of a line by what they are: ends and junctions are named, the others lie on paths between these.
+class Paths {
+public:
+  explicit Paths(const LineTree& line);
+
+  bool is_named(std::size_t node) const { return neighbours_[node].size() != 2; }
+
+  /// Each path once, from the earlier of its named nodes to the later.
+  const std::vector<std::vector<std::size_t>>& all() const { return paths_; }
+
+private:
+  void add_paths_from(std::size_t start);
+  std::size_t after(const std::vector<std::size_t>& path) const;
+
+  std::vector<Neighbours> neighbours_;
+  std::vector<std::vector<std::size_t>> paths_;
+};
+
+/// A line by the lengths of its paths alone.
+SegmentTree segments_of(const LineTree& line);
+
+}  // namespace tanglebin

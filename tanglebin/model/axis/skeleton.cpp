@@ -1,0 +1,264 @@
+#include "tanglebin/model/axis/skeleton.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <unordered_map>
+#include <utility>
+
+#include "tanglebin/model/axis/voxel.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3i;
+
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+struct Voxel {
+  Vector3i key;
+  Vector3d sum = Vector3d::Zero();  // of its points
+  std::size_t points = 0;
+  std::vector<std::size_t> neighbours{};  // voxels that touch it
+
+  Vector3d mean() const { return sum / static_cast<double>(points); }
+};
+
+// One of each two opposite neighbours of a voxel.
+std::array<Vector3i, 13> half_of_the_neighbours() {
+  std::array<Vector3i, 13> offsets;
+  std::size_t count = 0;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        if (std::array{x, y, z} > std::array{0, 0, 0}) offsets[count++] = {x, y, z};
+      }
+    }
+  }
+  return offsets;
+}
+
+struct VoxelGrid {
+  std::vector<Voxel> voxels;
+  std::vector<std::size_t> of_points;  // the voxel of each point; none where it is not finite
+};
+
+VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, double size) {
+  VoxelGrid grid{{}, std::vector(points.size(), none)};
+  std::unordered_map<std::uint64_t, std::size_t> at;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) continue;
+    const Vector3d point = points[i].cast<double>();
+    const Vector3i key = voxel_at(point, size);
+    const auto [found, is_new] = at.try_emplace(voxel_key(key), grid.voxels.size());
+    if (is_new) grid.voxels.push_back({key});
+    Voxel& voxel = grid.voxels[found->second];
+    voxel.sum += point;
+    ++voxel.points;
+    grid.of_points[i] = found->second;
+  }
+  const auto offsets = half_of_the_neighbours();
+  for (std::size_t i = 0; i < grid.voxels.size(); ++i) {
+    for (const Vector3i& offset : offsets) {
+      const auto found = at.find(voxel_key(grid.voxels[i].key + offset));
+      if (found == at.end()) continue;
+      grid.voxels[i].neighbours.push_back(found->second);
+      grid.voxels[found->second].neighbours.push_back(i);
+    }
+  }
+  return grid;
+}
+
+std::vector<std::vector<std::size_t>> connected_components(const std::vector<Voxel>& voxels) {
+  std::vector<std::vector<std::size_t>> components;
+  std::vector<bool> seen(voxels.size());
+  for (std::size_t first = 0; first < voxels.size(); ++first) {
+    if (seen[first]) continue;
+    std::vector<std::size_t> component{first};
+    seen[first] = true;
+    for (std::size_t next = 0; next < component.size(); ++next) {
+      for (const std::size_t neighbour : voxels[component[next]].neighbours) {
+        if (seen[neighbour]) continue;
+        seen[neighbour] = true;
+        component.push_back(neighbour);
+      }
+    }
+    components.push_back(std::move(component));
+  }
+  return components;
+}
+
+/// Lays trees along components of the voxels.
+class TreeMaker {
+public:
+  TreeMaker(const std::vector<Voxel>& voxels, double step)
+      : voxels_(voxels), step_(step), distances_(voxels.size()), nodes_(voxels.size(), none) {}
+
+  // The nodes are the level sets of the distance from one end, as in a Reeb graph.
+  Skeleton tree(std::vector<std::size_t> component) {
+    measure_from(component.front(), component);
+    const std::size_t end =
+        *std::ranges::max_element(component, {}, [&](std::size_t v) { return distances_[v]; });
+    measure_from(end, component);
+    std::ranges::stable_sort(component, {}, [&](std::size_t voxel) { return distances_[voxel]; });
+    Skeleton result;
+    for (const std::size_t voxel : component) {
+      if (nodes_[voxel] == none) add_node(result, voxel);
+    }
+    return result;
+  }
+
+private:
+  // Dijkstra's algorithm.
+  void measure_from(std::size_t start, const std::vector<std::size_t>& component) {
+    for (const std::size_t voxel : component) distances_[voxel] = std::numeric_limits<double>::infinity();
+    using Entry = std::pair<double, std::size_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    distances_[start] = 0;
+    queue.push({0, start});
+    while (!queue.empty()) {
+      const auto [distance, voxel] = queue.top();
+      queue.pop();
+      if (distance > distances_[voxel]) continue;
+      for (const std::size_t neighbour : voxels_[voxel].neighbours) {
+        const double through = distance + (voxels_[neighbour].mean() - voxels_[voxel].mean()).norm();
+        if (through >= distances_[neighbour]) continue;
+        distances_[neighbour] = through;
+        queue.push({through, neighbour});
+      }
+    }
+  }
+
+  int level(std::size_t voxel) const { return static_cast<int>(distances_[voxel] / step_); }
+
+  // A node for all voxels of this level that are connected with this one; its parent is the first of the
+  // nodes below that it touches.
+  void add_node(Skeleton& skeleton, std::size_t first) {
+    const std::size_t node = skeleton.nodes.size();
+    std::size_t parent = none;
+    Vector3d sum = Vector3d::Zero();
+    std::size_t count = 0;
+    std::vector<std::size_t> members{first};
+    nodes_[first] = node;
+    for (std::size_t next = 0; next < members.size(); ++next) {
+      const Voxel& voxel = voxels_[members[next]];
+      sum += voxel.sum;
+      count += voxel.points;
+      for (const std::size_t neighbour : voxel.neighbours) {
+        if (level(neighbour) < level(first)) parent = std::min(parent, nodes_[neighbour]);
+        if (level(neighbour) != level(first) || nodes_[neighbour] != none) continue;
+        nodes_[neighbour] = node;
+        members.push_back(neighbour);
+      }
+    }
+    skeleton.nodes.emplace_back(sum / static_cast<double>(count));
+    skeleton.parents.push_back(parent == none ? 0 : parent);
+  }
+
+  const std::vector<Voxel>& voxels_;
+  double step_;
+  std::vector<double> distances_;   // of each voxel from the end of its component
+  std::vector<std::size_t> nodes_;  // that each voxel belongs to
+};
+
+/// Cuts a tree down to the longest path from its first node and to its true branches: those that are long,
+/// and whose tips are away from the rest. What noise splits off runs beside it.
+class Pruner {
+public:
+  Pruner(const Skeleton& whole, double branch_min)
+      : whole_(whole),
+        branch_min_(branch_min),
+        below_(whole.nodes.size(), 0),
+        next_(whole.nodes.size(), none),
+        kept_(whole.nodes.size()) {
+    // Children come after their parents, so that all below a node is known before it.
+    for (std::size_t node = whole.nodes.size(); node-- > 1;) {
+      const std::size_t parent = whole.parents[node];
+      if (next_[parent] != none && through(node) <= below_[parent]) continue;
+      below_[parent] = through(node);
+      next_[parent] = node;
+    }
+  }
+
+  Skeleton pruned() {
+    keep(0);
+    // A branch starts from one that is longer.
+    for (const std::size_t node : branches()) {
+      if (kept_[whole_.parents[node]] && is_apart(tip_of(node))) keep(node);
+    }
+    Skeleton result;
+    std::vector<std::size_t> new_index(whole_.nodes.size());
+    for (std::size_t node = 0; node < whole_.nodes.size(); ++node) {
+      if (!kept_[node]) continue;
+      new_index[node] = result.nodes.size();
+      result.nodes.push_back(whole_.nodes[node]);
+      result.parents.push_back(new_index[whole_.parents[node]]);
+    }
+    return result;
+  }
+
+private:
+  // m, the longest way down from the node's parent that goes through it.
+  double through(std::size_t node) const {
+    return below_[node] + (whole_.nodes[node] - whole_.nodes[whole_.parents[node]]).norm();
+  }
+
+  // The first nodes of those that are long enough, the longest first.
+  std::vector<std::size_t> branches() const {
+    std::vector<std::size_t> result;
+    for (std::size_t node = 1; node < whole_.nodes.size(); ++node) {
+      if (next_[whole_.parents[node]] != node && through(node) >= branch_min_) result.push_back(node);
+    }
+    std::ranges::stable_sort(result, std::greater<>(), [&](std::size_t node) { return through(node); });
+    return result;
+  }
+
+  std::size_t tip_of(std::size_t node) const {
+    while (next_[node] != none) node = next_[node];
+    return node;
+  }
+
+  bool is_apart(std::size_t tip) const {
+    for (std::size_t node = 0; node < whole_.nodes.size(); ++node) {
+      if (kept_[node] && (whole_.nodes[tip] - whole_.nodes[node]).norm() <= branch_min_) return false;
+    }
+    return true;
+  }
+
+  // From a node down to the tip.
+  void keep(std::size_t node) {
+    for (; node != none; node = next_[node]) kept_[node] = true;
+  }
+
+  const Skeleton& whole_;
+  double branch_min_;
+  std::vector<double> below_;      // m, the longest way down from each node
+  std::vector<std::size_t> next_;  // where it goes first; none at a tip
+  std::vector<bool> kept_;
+};
+
+}  // namespace
+
+std::vector<Skeleton> find_skeletons(const std::vector<Eigen::Vector3f>& points, double voxel, double step,
+                                     double branch_min) {
+  const VoxelGrid grid = fill_voxels(points, voxel);
+  TreeMaker maker(grid.voxels, step);
+  std::vector<Skeleton> skeletons;
+  std::vector<std::size_t> skeleton_of(grid.voxels.size());
+  for (const std::vector<std::size_t>& component : connected_components(grid.voxels)) {
+    for (const std::size_t member : component) skeleton_of[member] = skeletons.size();
+    const Skeleton whole = maker.tree(component);
+    skeletons.push_back(Pruner(whole, branch_min).pruned());
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (grid.of_points[i] != none) skeletons[skeleton_of[grid.of_points[i]]].points.push_back(i);
+  }
+  return skeletons;
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,83 @@
+#include "tanglebin/model/model_tubes.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/Geometry>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/base/text.hpp"
+#include "tanglebin/model/axis/axis_method.hpp"
+#include "tanglebin/model/paper/paper_method.hpp"
+
+namespace tanglebin {
+namespace {
+
+// A cloud many times larger than the scene is not in metres.
+void check_size(const PointCloud& cloud, const KnownScene& known) {
+  Eigen::AlignedBox3f bounds;
+  for (const Eigen::Vector3f& point : cloud.points) {
+    if (point.allFinite()) bounds.extend(point);
+  }
+  if (bounds.isEmpty()) return;
+  const double size = bounds.sizes().cast<double>().maxCoeff();
+  constexpr double too_many_times = 100;
+  if (size > too_many_times * known.bin.length) {
+    throw InputError({}, fmt::format("points up to {:.4g} m apart", size),
+                     fmt::format("a scan, in metres, of a bin that is {:.4g} m long; are these millimetres?",
+                                 known.bin.length));
+  }
+}
+
+}  // namespace
+
+std::vector<Method> methods() {
+  return {Method::paper, Method::axis};
+}
+
+std::string name_of(Method method) {
+  switch (method) {
+    case Method::paper:
+      return "paper";
+    case Method::axis:
+      return "axis";
+  }
+  return {};
+}
+
+Method method_named(const std::string& name) {
+  std::string names;
+  for (const Method method : methods()) {
+    if (name_of(method) == name) return method;
+    names += (names.empty() ? "" : ", ") + name_of(method);
+  }
+  throw InputError({"", 0, "method"}, excerpt(name), names);
+}
+
+void expect_available(Method method) {
+  if (method == Method::paper) expect_paper_method();
+}
+
+void validate(const KnownScene& known, const ModelSettings& settings) {
+  validate(known);
+  expect_available(settings.method);
+  if (!(settings.ratio > 0 && settings.ratio <= 1)) {
+    throw InputError({"", 0, "downsample"}, fmt::format("{}", settings.ratio), "a ratio above 0, at most 1");
+  }
+  if (settings.method == Method::paper && known.kinds.size() > 1)
+    throw InputError({"", 0, "method"}, "paper for tubes of several radii",
+                     "axis; the paper's method handles a single radius");
+}
+
+Model model_tubes(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings) {
+  validate(known, settings);
+  check_size(cloud, known);
+  switch (settings.method) {
+    case Method::paper:
+      return model_as_in_paper(cloud, known, settings.ratio, settings.seed, settings.paper).model;
+    case Method::axis:
+      return model_by_axes(cloud, known, settings.ratio, settings.seed, settings.axis).model;
+  }
+  return {};
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,81 @@
+#include "tanglebin/model/paper/paper_method.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "tanglebin/geometry/labels.hpp"
+#include "tanglebin/model/scene/range_image.hpp"
+#include "tanglebin/model/scene/step_clock.hpp"
+
+namespace tanglebin {
+namespace {
+
+std::vector<Cylinder> fit_clusters(const OrientedCloud& cloud,
+                                   const std::vector<std::vector<std::size_t>>& clusters, double radius,
+                                   const FitSettings& settings) {
+  std::vector<Cylinder> cylinders;
+  for (const auto& cluster : clusters) {
+    std::ranges::move(fit_cylinders(cloud, cluster, radius, settings), std::back_inserter(cylinders));
+  }
+  return cylinders;
+}
+
+// The points that the cylinders of each tube were fitted to are that tube's.
+std::vector<std::int32_t> claimed_points(std::size_t points, const PaperModel& found,
+                                         const std::vector<JoinedTube>& tubes) {
+  std::vector<std::int32_t> labels(points, null_label);
+  for (const JoinedTube& joined : tubes) {
+    for (const std::size_t cylinder : joined.cylinders) {
+      for (const std::size_t point : found.cylinders[cylinder].points) {
+        labels[found.filtered.indices[point]] = joined.tube.id;
+      }
+    }
+  }
+  return labels;
+}
+
+}  // namespace
+
+void expect_paper_method() {}
+
+PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, double ratio,
+                             std::uint64_t seed, const PaperSettings& settings) {
+  const TubeKind& kind = known.kinds.at(0);
+  PaperModel result;
+  Model& model = result.model;
+  StepClock clock(model.steps);
+
+  // Section 4, the filtering step: the crop box of Section 6.2, random downsampling, normals.
+  const std::vector<std::size_t> cropped = crop(cloud, known.bin, settings.filter);
+  model.filtered = downsample(cropped, ratio, seed);
+  result.filtered =
+      with_normals(cloud, model.filtered, known.camera.pose.translation(), settings.normal_neighbours);
+  clock.end_step("filter", model.filtered.size(), "points");
+
+  // The segmentation step.
+  result.clusters = grow_regions(result.filtered, settings.segment);
+  clock.end_step("segment", result.clusters.size(), "clusters");
+
+  // The fitting step.
+  result.cylinders = fit_clusters(result.filtered, result.clusters, kind.radius, settings.fit);
+  clock.end_step("fit", result.cylinders.size(), "cylinders");
+
+  // The joining step.
+  const RangeImage seen(cloud, known.camera);
+  result.joins = join_cylinders(result.cylinders, seen, kind.length(), settings.join);
+  const std::vector<JoinedTube> tubes = joined_tubes(result.cylinders, result.joins, kind.radius);
+  for (const JoinedTube& joined : tubes) model.tubes.push_back(joined.tube);
+  clock.end_step("join", model.tubes.size(), "tubes");
+
+  // "In order to prepare the labeled point cloud, …"
+  model.labels = label_points(cloud, cropped, claimed_points(cloud.points.size(), result, tubes), model.tubes,
+                              settings.label);
+  clock.end_step("label",
+                 static_cast<std::size_t>(std::ranges::count_if(
+                     model.labels, [](std::int32_t label) { return label > bin_label; })),
+                 "points");
+  return result;
+}
+
+}  // namespace tanglebin

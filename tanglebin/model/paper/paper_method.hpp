@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tanglebin/cloud/cloud.hpp"
+#include "tanglebin/model/paper/fit.hpp"
+#include "tanglebin/model/paper/join.hpp"
+#include "tanglebin/model/paper/normals.hpp"
+#include "tanglebin/model/paper/paper_settings.hpp"
+#include "tanglebin/model/paper/segment.hpp"
+#include "tanglebin/model/scene/filter.hpp"
+#include "tanglebin/model/scene/known_scene.hpp"
+#include "tanglebin/model/scene/label.hpp"
+#include "tanglebin/model/scene/model.hpp"
+
+namespace tanglebin {
+
+/// A model and what the steps before made of the cloud.
+struct PaperModel {
+  Model model;
+  OrientedCloud filtered;
+  std::vector<std::vector<std::size_t>> clusters;  ///< of indices into filtered's arrays
+  std::vector<Cylinder> cylinders;
+  std::vector<Join> joins;
+};
+
+/// Throws InputError where this program was built without the Point Cloud Library, which the paper's method
+/// needs.
+void expect_paper_method();
+
+/// The tube modelling algorithm of the paper (Section 4), for tubes that are chains of cylinders. Arguments
+/// as for model_tubes(). Throws InputError without the Point Cloud Library.
+PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, double ratio,
+                             std::uint64_t seed, const PaperSettings& settings = {});
+
+}  // namespace tanglebin

@@ -1,0 +1,46 @@
+#include "tanglebin/model/scene/filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tanglebin/base/random.hpp"
+
+namespace tanglebin {
+
+std::vector<std::size_t> crop(const PointCloud& cloud, const Bin& bin, const FilterSettings& settings) {
+  const auto bin_boxes = boxes(bin);
+  Eigen::AlignedBox3d around;
+  for (const Eigen::AlignedBox3d& box : bin_boxes) around.extend(box);
+  around.min().array() -= settings.overhang;
+  around.max().array() += settings.overhang;
+
+  const auto is_of_bin = [&](const Eigen::Vector3d& point) {
+    return std::ranges::any_of(bin_boxes, [&](const Eigen::AlignedBox3d& box) {
+      return box.squaredExteriorDistance(point) < settings.margin * settings.margin;
+    });
+  };
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Eigen::Vector3d point = cloud.points[i].cast<double>();
+    if (point.allFinite() && around.contains(point) && !is_of_bin(point)) kept.push_back(i);
+  }
+  return kept;
+}
+
+// Knuth, The Art of Computer Programming, volume 2, 3.4.2, Algorithm S.
+std::vector<std::size_t> downsample(const std::vector<std::size_t>& indices, double ratio,
+                                    std::uint64_t seed) {
+  const auto wanted = static_cast<std::size_t>(std::llround(ratio * static_cast<double>(indices.size())));
+  Rng rng(seed);
+  std::vector<std::size_t> drawn;
+  drawn.reserve(wanted);
+  for (std::size_t i = 0; i < indices.size() && drawn.size() < wanted; ++i) {
+    const auto left = static_cast<double>(indices.size() - i);
+    if (left * uniform_real(rng, 0, 1) < static_cast<double>(wanted - drawn.size())) {
+      drawn.push_back(indices[i]);
+    }
+  }
+  return drawn;
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tanglebin/model/scene/model.hpp"
+
+// Internal to the room.
+namespace tanglebin {
+
+/// Notes the steps as they end.
+class StepClock {
+public:
+  explicit StepClock(std::vector<Step>& steps) : steps_(steps) {}
+
+  void end_step(std::string name, std::size_t count, std::string of) {
+    const auto now = std::chrono::steady_clock::now();
+    steps_.push_back(
+        {std::move(name), std::chrono::duration<double>(now - start_).count(), count, std::move(of)});
+    start_ = now;
+  }
+
+private:
+  std::vector<Step>& steps_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace tanglebin

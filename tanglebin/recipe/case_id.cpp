@@ -1,0 +1,31 @@
+#include "tanglebin/recipe/case_id.hpp"
+
+#include <fmt/format.h>
+
+#include "tanglebin/recipe/recipe.hpp"
+
+namespace tanglebin {
+
+std::vector<CaseId> cases(const Recipe& recipe) {
+  std::vector<CaseId> result;
+  for (const SetRecipe& set : recipe.sets)
+    for (const int tubes : set.tubes)
+      for (int number = 1; number <= set.cases; ++number) result.push_back({set.name, tubes, number});
+  return result;
+}
+
+std::string folder_name(std::string_view set, int tubes) {
+  return fmt::format("{}{}", set, tubes);
+}
+
+std::string name_of(const CaseId& id) {
+  return fmt::format("{}/{}", folder_name(id.set, id.tubes), id.number);
+}
+
+std::string file_of(const CaseId& id, std::string_view kind, std::string_view extension,
+                    std::string_view scanner) {
+  return fmt::format("{}/{}{}{}/{}.{}", folder_name(id.set, id.tubes), scanner, scanner.empty() ? "" : "/",
+                     kind, id.number, extension);
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,164 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/base/text.hpp"
+#include "tanglebin/recipe/case_id.hpp"
+#include "tanglebin/recipe/recipe.hpp"
+
+namespace tanglebin {
+namespace {
+
+constexpr std::size_t longest_name = 64;
+constexpr int most_tubes = 1000;                // in a case
+constexpr std::int64_t most_cases = 1'000'000;  // in a recipe
+
+void expect(bool holds, const std::string& field, const std::string& found, const std::string& expected) {
+  if (!holds) throw InputError({"", 0, field}, found, expected);
+}
+
+// As TOML calls it: set[0].
+std::string place(std::size_t set) {
+  return fmt::format("set[{}]", set);
+}
+
+// Names become folders' names.
+void validate_name(const std::string& name, const std::string& field) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  };
+  expect(!name.empty() && name.size() <= longest_name && std::ranges::all_of(name, allowed), field,
+         excerpt(name), fmt::format("1 to {} letters, digits, '-' and '_'", longest_name));
+}
+
+void validate_numbers_of_tubes(const std::vector<int>& tubes, const std::string& field) {
+  expect(!tubes.empty(), field, "none", "at least one number of tubes");
+  std::set<int> seen;
+  for (const int number : tubes) {
+    expect(number >= 1 && number <= most_tubes, field, fmt::format("{}", number),
+           fmt::format("numbers of tubes from 1 to {}", most_tubes));
+    expect(seen.insert(number).second, field, fmt::format("{} a second time", number), "numbers that differ");
+  }
+}
+
+// The longest straight piece that may be drawn: one cylinder, as long as the shortest others leave it.
+double longest_straight_piece(const Segment& segment) {
+  if (segment.bend_max == 0) return segment.length;
+  return segment.length - (segment.cylinders_min - 1) * segment.cylinder_length_min;
+}
+
+// A capsule lies in a box where its axis lies in the box that is a radius smaller on every side.
+double longest_axis_inside(const Bin& bin, double radius) {
+  const Eigen::Array3d inner(bin.length, bin.width, bin.height);
+  return (inner - 2 * radius).max(0).matrix().norm();
+}
+
+// The bin is not smaller than a tube.
+void validate_fit(const TubeSpec& spec, const Bin& bin, const std::string& where) {
+  const double narrowest = std::min(bin.length, bin.width);
+  expect(2 * spec.radius < narrowest, where + ".radius", fmt::format("tubes {:.6g} m thick", 2 * spec.radius),
+         fmt::format("ones that fit between the bin's walls, which are {:.6g} m apart", narrowest));
+  const double room = longest_axis_inside(bin, spec.radius);
+  for (std::size_t i = 0; i < spec.segments.size(); ++i) {
+    const double longest = longest_straight_piece(spec.segments[i]);
+    const std::string segment = spec.segments.size() == 1 ? where : fmt::format("{}.segment[{}]", where, i);
+    expect(longest <= room, segment + ".length", fmt::format("a straight piece of up to {:.6g} m", longest),
+           fmt::format("one that fits in the bin, whose diagonal has room for {:.6g} m", room));
+  }
+}
+
+void validate_set(const SetRecipe& set, const Bin& bin, const std::string& where) {
+  validate_name(set.name, where + ".name");
+  validate_numbers_of_tubes(set.tubes, where + ".tubes");
+  expect(set.cases >= 1, where + ".cases", fmt::format("{}", set.cases), "at least 1");
+  expect(!set.kinds.empty(), where + ".tube", "none", "at least one kind of tubes");
+  for (std::size_t i = 0; i < set.kinds.size(); ++i) {
+    const std::string kind = set.kinds.size() == 1 ? where + ".tube" : fmt::format("{}.tube[{}]", where, i);
+    validate(set.kinds[i], kind);
+    validate_fit(set.kinds[i], bin, kind);
+  }
+}
+
+// "A" with 11 tubes and "A1" with one would both be in A11.
+void validate_folders(const std::vector<SetRecipe>& sets) {
+  std::set<std::string> names;
+  std::map<std::string, std::string> folders;  // the set that each belongs to
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const std::string& name = sets[i].name;
+    expect(names.insert(name).second, place(i) + ".name", excerpt(name) + " a second time",
+           "names that differ");
+    for (const int tubes : sets[i].tubes) {
+      const auto [known, is_new] = folders.emplace(folder_name(name, tubes), name);
+      expect(is_new, place(i) + ".tubes",
+             fmt::format("{}, whose folder {} is also that of set {}", tubes, known->first,
+                         excerpt(known->second)),
+             "a folder for each");
+    }
+  }
+}
+
+void validate_number_of_cases(const std::vector<SetRecipe>& sets) {
+  std::int64_t total = 0;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    total += static_cast<std::int64_t>(sets[i].tubes.size()) * sets[i].cases;
+    expect(total <= most_cases, place(i) + ".cases", fmt::format("{} cases up to here", total),
+           fmt::format("at most {} in a recipe", most_cases));
+  }
+}
+
+// A scanner's folder is beside those of the other kinds of files.
+constexpr std::array<std::string_view, 6> folders_of_kinds{
+    "plys", "pcds", "depths", "labels", "tube_configurations", "gazebo_worlds"};
+
+// An error's field says which scanner's it is.
+void validate_scanner(const Scanner& scanner, const std::string& where) {
+  try {
+    validate(scanner.camera);
+    validate(scanner.sensor);
+  } catch (const InputError& error) {
+    const std::string& field = error.place().field;
+    throw InputError({"", 0, where + field.substr(field.find('.'))}, error.problem());
+  }
+}
+
+void validate_scanners(const Recipe& recipe) {
+  const std::vector<Scanner> all = scanners(recipe);
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Scanner& scanner = all[i];
+    const std::string where = recipe.scanner_name.empty() ? "scanner" : fmt::format("scanner[{}]", i);
+    validate_scanner(scanner, where);
+    if (all.size() == 1 && scanner.name.empty()) return;
+    validate_name(scanner.name, where + ".name");
+    expect(std::ranges::find(folders_of_kinds, scanner.name) == folders_of_kinds.end(), where + ".name",
+           excerpt(scanner.name), "a name that is no other folder's");
+    expect(names.insert(scanner.name).second, where + ".name", excerpt(scanner.name) + " a second time",
+           "names that differ");
+  }
+}
+
+}  // namespace
+
+void validate(const Recipe& recipe) {
+  expect(std::in_range<std::int64_t>(recipe.seed), "seed", fmt::format("{}", recipe.seed),
+         fmt::format("at most {}", std::numeric_limits<std::int64_t>::max()));
+  expect(recipe.attempts >= 1, "attempts", fmt::format("{}", recipe.attempts), "at least 1");
+  validate(recipe.bin);
+  validate_scanners(recipe);
+  validate(recipe.settle);
+  expect(!recipe.sets.empty(), "set", "none", "at least one [[set]]");
+  for (std::size_t i = 0; i < recipe.sets.size(); ++i) validate_set(recipe.sets[i], recipe.bin, place(i));
+  validate_folders(recipe.sets);
+  validate_number_of_cases(recipe.sets);
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,147 @@
+#include "tanglebin/runs/journal.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/io/safe_file.hpp"
+
+namespace tanglebin {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view extension = ".jsonl";
+
+std::string stem_of(const std::string& name) {
+  return name.empty() ? "journal" : "journal-" + name;
+}
+
+fs::path staging_of(const fs::path& journal) {
+  return journal.parent_path() / ("." + journal.stem().string() + ".unfinished");
+}
+
+// Those who fold the journals of runs that were cut off have these for a moment, and the directory's lock
+// with them.
+std::optional<FileLock> take_lock(const fs::path& file) {
+  const DirectoryLock lock(file.parent_path());
+  return FileLock::take(file);
+}
+
+FileLock wait_for_lock(const fs::path& file, std::chrono::seconds patience) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (true) {
+    if (std::optional<FileLock> lock = take_lock(file)) return std::move(*lock);
+    if (std::chrono::steady_clock::now() >= end) {
+      throw InputError({file.parent_path().string(), 0, ""}, "another run is writing here");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+std::chrono::seconds patience_of(const std::string& name) {
+  // Long enough for the workers of a run that was killed to be gone.
+  constexpr std::chrono::seconds on_one_machine{3};
+  // Long enough for a file server to give up the locks of a machine that died.
+  constexpr std::chrono::seconds on_a_cluster{120};
+  return name.empty() ? on_one_machine : on_a_cluster;
+}
+
+// A run that was cut off may have left a torn line; what is appended is to begin a new one.
+void cut_torn_line(const fs::path& file) {
+  std::uintmax_t whole = 0;
+  for_each_whole_line(file, [&](const std::string& line, std::size_t) { whole += line.size() + 1; });
+  std::error_code error;
+  fs::resize_file(file, whole, error);
+  if (error) throw InputError({file.string(), 0, ""}, error.message());
+}
+
+}  // namespace
+
+Journal::Journal(const fs::path& directory, const std::string& name)
+    : file_(directory / (stem_of(name) + std::string(extension))),
+      staging_(staging_of(file_)),
+      lock_(wait_for_lock(file_, patience_of(name))) {
+  cut_torn_line(file_);
+  fs::remove_all(staging_);
+  make_directories(staging_);
+}
+
+Journal::Journal(fs::path file, fs::path staging, FileLock lock)
+    : file_(std::move(file)), staging_(std::move(staging)), lock_(std::move(lock)) {}
+
+Journal::~Journal() {
+  if (lock_.descriptor() < 0) return;
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
+  if (fs::file_size(file_, ignored) == 0) fs::remove(file_, ignored);
+}
+
+bool Journal::is_empty() const {
+  return fs::file_size(file_) == 0;
+}
+
+void Journal::append(const std::vector<std::string>& lines) const {
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  write_all(lock_.descriptor(), text, file_);
+  if (fdatasync(lock_.descriptor()) != 0) throw InputError({file_.string(), 0, ""}, std::strerror(errno));
+}
+
+void Journal::clear() const {
+  if (ftruncate(lock_.descriptor(), 0) != 0) throw InputError({file_.string(), 0, ""}, std::strerror(errno));
+}
+
+std::vector<fs::path> journals_in(const fs::path& directory) {
+  std::vector<fs::path> journals;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_called_so = name == stem_of({}) + std::string(extension) ||
+                              (name.starts_with("journal-") && name.ends_with(extension));
+    if (is_called_so && fs::is_regular_file(entry.symlink_status())) journals.push_back(entry.path());
+  }
+  std::ranges::sort(journals);
+  return journals;
+}
+
+std::vector<Journal> abandoned_journals(const fs::path& directory) {
+  std::vector<Journal> abandoned;
+  for (const fs::path& file : journals_in(directory)) {
+    if (std::optional<FileLock> lock = FileLock::take(file)) {
+      abandoned.push_back(Journal(file, staging_of(file), std::move(*lock)));
+    }
+  }
+  return abandoned;
+}
+
+void for_each_whole_line(const fs::path& file,
+                         const std::function<void(const std::string&, std::size_t)>& take) {
+  std::optional<std::ifstream> in = open_if_there(file);
+  if (!in) return;
+  std::string line;
+  for (std::size_t number = 1; std::getline(*in, line) && !in->eof(); ++number) take(line, number);
+  expect_read(*in, file);
+}
+
+void for_each_readable_line(const fs::path& file,
+                            const std::function<void(const std::string&, std::size_t)>& take) {
+  for_each_whole_line(file, [&](const std::string& line, std::size_t number) {
+    try {
+      take(line, number);
+    } catch (const InputError&) {
+      return;
+    }
+  });
+}
+
+}  // namespace tanglebin

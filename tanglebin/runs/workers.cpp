@@ -1,0 +1,318 @@
+#include "tanglebin/runs/workers.hpp"
+
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "tanglebin/base/error.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// While it lives, SIGINT and SIGTERM are only remembered, in `interrupted`.
+class InterruptGuard {
+public:
+  InterruptGuard() {
+    interrupted = 0;
+    struct sigaction remember {};
+    remember.sa_handler = [](int) { interrupted = 1; };
+    sigaction(SIGINT, &remember, &old_int_);
+    sigaction(SIGTERM, &remember, &old_term_);
+  }
+  ~InterruptGuard() {
+    sigaction(SIGINT, &old_int_, nullptr);
+    sigaction(SIGTERM, &old_term_, nullptr);
+  }
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+private:
+  struct sigaction old_int_ {};
+  struct sigaction old_term_ {};
+};
+
+/// One end of the line between the calling process and a worker. Both functions return false when the other
+/// end is gone.
+class Line {
+public:
+  explicit Line(int descriptor) : descriptor_(descriptor) {}
+  ~Line() { close(descriptor_); }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+  bool send_bytes(const void* bytes, std::size_t size) const {
+    const auto* from = static_cast<const char*>(bytes);
+    while (size > 0) {
+      const ssize_t sent = send(descriptor_, from, size, MSG_NOSIGNAL);
+      if (sent < 0 && errno != EINTR) return false;
+      if (sent < 0) continue;
+      from += sent;
+      size -= static_cast<std::size_t>(sent);
+    }
+    return true;
+  }
+
+  bool receive_bytes(void* bytes, std::size_t size) const {
+    auto* to = static_cast<char*>(bytes);
+    while (size > 0) {
+      const ssize_t received = recv(descriptor_, to, size, 0);
+      if (received == 0 || (received < 0 && errno != EINTR)) return false;
+      if (received < 0) continue;
+      to += received;
+      size -= static_cast<std::size_t>(received);
+    }
+    return true;
+  }
+
+private:
+  int descriptor_;
+};
+
+enum class Outcome : std::uint32_t { done, bad_input, impossible, exception };
+
+/// What a worker says of its task.
+struct Answer {
+  Outcome outcome;
+  std::string text;
+};
+
+bool send_answer(const Line& line, const Answer& answer) {
+  const std::array<std::uint64_t, 2> head{static_cast<std::uint64_t>(answer.outcome), answer.text.size()};
+  return line.send_bytes(head.data(), sizeof(head)) &&
+         line.send_bytes(answer.text.data(), answer.text.size());
+}
+
+std::optional<Answer> receive_answer(const Line& line) {
+  std::array<std::uint64_t, 2> head{};
+  if (!line.receive_bytes(head.data(), sizeof(head))) return std::nullopt;
+  Answer answer{static_cast<Outcome>(head[0]), std::string(head[1], '\0')};
+  if (!line.receive_bytes(answer.text.data(), answer.text.size())) return std::nullopt;
+  return answer;
+}
+
+Answer answer_of(const Task& task, std::size_t number) {
+  try {
+    return {Outcome::done, task(number)};
+  } catch (const InputError& error) {
+    return {Outcome::bad_input, error.what()};
+  } catch (const TaskImpossible& error) {
+    return {Outcome::impossible, error.what()};
+  } catch (const std::exception& error) {
+    return {Outcome::exception, error.what()};
+  }
+}
+
+// The life of a worker. Signals are the parent's business.
+void work(const Line& line, const Task& task, pid_t parent) {
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, SIG_IGN);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) return;  // it was gone before prctl()
+  std::uint64_t number = 0;
+  while (line.receive_bytes(&number, sizeof(number))) {
+    if (!send_answer(line, answer_of(task, number))) return;
+  }
+}
+
+struct Worker {
+  pid_t process = 0;
+  std::unique_ptr<Line> line;
+  std::optional<std::size_t> task;  ///< under way
+  Clock::time_point since;
+};
+
+std::string end_of(int status) {
+  if (WIFSIGNALED(status)) return fmt::format("its worker was ended by signal {}", WTERMSIG(status));
+  return fmt::format("its worker ended with status {}", WEXITSTATUS(status));
+}
+
+/// The workers, and who does what.
+class Crew {
+public:
+  Crew(std::size_t count, const Task& task, const WorkersObserver& observer)
+      : count_(count), task_(task), observer_(observer) {}
+  // Lets the workers finish what they are at.
+  ~Crew() {
+    for (Worker& worker : workers_) bury(worker);
+  }
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  void hire() {
+    const pid_t parent = getpid();
+    std::array<int, 2> ends{};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) throw_last_error("socketpair");
+    Worker worker;
+    worker.line = std::make_unique<Line>(ends[0]);
+    auto other_end = std::make_unique<Line>(ends[1]);
+    worker.process = fork();
+    if (worker.process < 0) throw_last_error("fork");
+    if (worker.process > 0) {
+      workers_.push_back(std::move(worker));
+      return;
+    }
+    // Another worker's line would stay open in this one after the parent has closed it.
+    worker.line.reset();
+    for (Worker& other : workers_) other.line.reset();
+    work(*other_end, task_, parent);
+    _exit(0);  // not exit(): what the parent has registered and buffered is the parent's to finish
+  }
+
+  void hand_out_tasks() {
+    for (Worker& worker : workers_) {
+      if (!worker.task) hand_out(worker);
+    }
+  }
+
+  bool is_under_way() const {
+    return std::ranges::any_of(workers_, [](const Worker& worker) { return worker.task.has_value(); });
+  }
+
+  void stop() { stopped_ = true; }
+
+  const std::optional<std::string>& bad_input() const { return bad_input_; }
+
+  /// Waits a moment for answers, hands out the next tasks, and then tells of what is done.
+  void turn() {
+    std::vector<pollfd> lines;
+    lines.reserve(workers_.size());
+    for (const Worker& worker : workers_) lines.push_back({worker.line->descriptor(), POLLIN, 0});
+    constexpr int milliseconds = 100;
+    if (poll(lines.data(), lines.size(), milliseconds) < 0 && errno != EINTR) throw_last_error("poll");
+    if (interrupted != 0) stop();
+
+    std::vector<TaskResult> results;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (lines[i].revents != 0) listen_to(workers_[i], results);
+    }
+    const std::size_t dead = std::erase_if(workers_, [](const Worker& worker) { return !worker.line; });
+    hand_out_tasks();
+    if (!results.empty()) observer_.done(results);
+    for (const TaskFailure& failure : std::exchange(failures_, {})) observer_.failed(failure);
+    replace(dead);  // only now: it may throw
+    observer_.tick();
+  }
+
+private:
+  [[noreturn]] static void throw_last_error(const char* what) {
+    throw std::system_error(errno, std::generic_category(), what);
+  }
+
+  std::optional<std::size_t> next_task() {
+    if (stopped_) return std::nullopt;
+    if (!again_.empty()) {
+      const std::size_t task = again_.front();
+      again_.pop_front();
+      return task;
+    }
+    if (next_ == count_) return std::nullopt;
+    return next_++;
+  }
+
+  void hand_out(Worker& worker) {
+    worker.task = next_task();
+    if (!worker.task) return;
+    worker.since = Clock::now();
+    const std::uint64_t number = *worker.task;
+    worker.line->send_bytes(&number, sizeof(number));  // that it is dead will show when it does not answer
+  }
+
+  void listen_to(Worker& worker, std::vector<TaskResult>& results) {
+    std::optional<Answer> answer = receive_answer(*worker.line);
+    if (!answer) {
+      const std::string reason = end_of(bury(worker));
+      if (worker.task) retry_or_give_up(*worker.task, reason);
+      worker.task.reset();
+      return;
+    }
+    const std::size_t task = worker.task.value();
+    worker.task.reset();
+    switch (answer->outcome) {
+      case Outcome::done: {
+        const double seconds = std::chrono::duration<double>(Clock::now() - worker.since).count();
+        results.push_back({task, std::move(answer->text), seconds});
+        break;
+      }
+      case Outcome::bad_input:
+        if (!bad_input_) bad_input_ = std::move(answer->text);
+        stop();
+        break;
+      case Outcome::impossible:
+        failures_.push_back({task, std::move(answer->text)});
+        break;
+      case Outcome::exception:
+        retry_or_give_up(task, answer->text);
+        break;
+    }
+  }
+
+  void retry_or_give_up(std::size_t task, const std::string& reason) {
+    if (tried_.insert(task).second) {
+      again_.push_back(task);
+    } else {
+      failures_.push_back({task, reason + ", the second time"});
+    }
+  }
+
+  void replace(std::size_t dead) {
+    for (std::size_t i = 0; i < dead && !stopped_; ++i) hire();
+    hand_out_tasks();
+  }
+
+  // Ends the worker's line and waits for its end; returns the status.
+  static int bury(Worker& worker) {
+    worker.line.reset();
+    int status = 0;
+    while (waitpid(worker.process, &status, 0) < 0 && errno == EINTR) continue;
+    return status;
+  }
+
+  std::size_t count_;
+  const Task& task_;
+  const WorkersObserver& observer_;
+  std::vector<Worker> workers_;
+  std::size_t next_ = 0;           ///< task to hand out next
+  std::deque<std::size_t> again_;  ///< before that, those to try again
+  std::set<std::size_t> tried_;    ///< those that failed once
+  std::vector<TaskFailure> failures_;
+  std::optional<std::string> bad_input_;
+  bool stopped_ = false;  ///< hand out no more
+};
+
+}  // namespace
+
+bool run_in_workers(int jobs, std::size_t count, const Task& task, const WorkersObserver& observer) {
+  const InterruptGuard guard;
+  Crew crew(count, task, observer);
+  for (int i = 0; i < jobs && static_cast<std::size_t>(i) < count; ++i) crew.hire();
+  crew.hand_out_tasks();
+  while (crew.is_under_way()) crew.turn();
+  if (crew.bad_input()) throw InputError({}, *crew.bad_input());
+  return interrupted == 0;
+}
+
+}  // namespace tanglebin

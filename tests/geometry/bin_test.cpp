@@ -1,0 +1,87 @@
+#include "tanglebin/geometry/bin.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "tanglebin/base/error.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+double volume(const Bin& bin) {
+  double sum = 0;
+  for (const AlignedBox3d& box : boxes(bin)) sum += box.volume();
+  return sum;
+}
+
+TEST(Bin, PresetsHaveTheSizesOfThePaperAndOfThePublishedWorlds) {
+  const Bin paper = bin_preset("paper");
+  EXPECT_EQ(Vector3d(paper.length, paper.width, paper.height), Vector3d(0.55, 0.37, 0.20));
+  const Bin published = bin_preset("published");
+  EXPECT_EQ(Vector3d(published.length, published.width, published.height), Vector3d(0.80, 0.60, 0.20));
+  EXPECT_EQ(published.wall, 0.02);
+}
+
+TEST(Bin, AnUnknownPresetIsNamedTogetherWithTheKnownOnes) {
+  try {
+    bin_preset("bucket");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "bin: found 'bucket', expected paper or published");
+  }
+}
+
+TEST(Bin, TheFloorIsUnderTheOriginAndTheWallsStandWhereTheyAreNamed) {
+  const auto [floor, left, right, front, back] = boxes(Bin{});
+  EXPECT_EQ(floor.max().z(), 0);
+  EXPECT_TRUE(floor.contains(Vector3d::Zero()));
+  EXPECT_TRUE(left.contains(Vector3d(-0.28, 0, 0.1)));
+  EXPECT_TRUE(right.contains(Vector3d(0.28, 0, 0.1)));
+  EXPECT_TRUE(front.contains(Vector3d(0, -0.19, 0.1)));
+  EXPECT_TRUE(back.contains(Vector3d(0, 0.19, 0.1)));
+}
+
+TEST(Bin, BoxesFillTheShellOnceAndLeaveTheInsideFree) {
+  const Bin bin = bin_preset("published");
+  const AlignedBox3d inside(Vector3d(-bin.length / 2, -bin.width / 2, 0),
+                            Vector3d(bin.length / 2, bin.width / 2, bin.height));
+  const Vector3d wall(bin.wall, bin.wall, 0);
+  const AlignedBox3d outside(inside.min() - wall - bin.wall * Vector3d::UnitZ(), inside.max() + wall);
+
+  AlignedBox3d hull;
+  for (const AlignedBox3d& box : boxes(bin)) {
+    hull.extend(box);
+    EXPECT_EQ(box.intersection(inside).volume(), 0);
+  }
+  EXPECT_TRUE(hull.isApprox(outside));
+  // Free of the inside, within the outside and of the shell's volume: so they do not overlap.
+  EXPECT_NEAR(volume(bin), outside.volume() - inside.volume(), 1e-12);
+}
+
+TEST(Bin, ValidationNamesTheFieldThatIsNotAPositiveNumber) {
+  EXPECT_NO_THROW(validate(Bin{}));
+  const auto rejected_field = [](double Bin::*member, double value) -> std::string {
+    Bin bin;
+    bin.*member = value;
+    try {
+      validate(bin);
+    } catch (const InputError& error) {
+      return error.place().field;
+    }
+    return "none";
+  };
+  EXPECT_EQ(rejected_field(&Bin::length, 0), "bin.length");
+  EXPECT_EQ(rejected_field(&Bin::width, -0.1), "bin.width");
+  EXPECT_EQ(rejected_field(&Bin::height, std::numeric_limits<double>::infinity()), "bin.height");
+  EXPECT_EQ(rejected_field(&Bin::wall, std::numeric_limits<double>::quiet_NaN()), "bin.wall");
+  EXPECT_EQ(rejected_field(&Bin::friction, -1), "bin.friction");
+}
+
+}  // namespace
+}  // namespace tanglebin

@@ -1,0 +1,100 @@
+#include "tanglebin/geometry/tube.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include "tanglebin/generate/generate.hpp"
+#include "tests/geometry/example_tubes.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+using test::rounding;
+
+Tube any_tree() {
+  Rng rng(*rc::gen::arbitrary<std::uint64_t>());
+  return draw_tube(rng, test::tree_spec(), 1);
+}
+
+Eigen::Isometry3d any_motion() {
+  Rng rng(*rc::gen::arbitrary<std::uint64_t>());
+  const auto coordinate = [&] { return uniform_real(rng, -1, 1); };
+  const auto vector = [&] { return Vector3d(coordinate(), coordinate(), coordinate()); };
+  return Eigen::Translation3d(vector()) * Eigen::AngleAxisd(4 * coordinate(), vector().normalized());
+}
+
+TEST(Tube, HasACapsuleForEveryEdge) {
+  const Tube tube = test::tube_through({{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.2, 0}});
+  const std::vector<Capsule> all = capsules(tube);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[1].a, Vector3d(0.1, 0, 0));
+  EXPECT_EQ(all[1].b, Vector3d(0.1, 0.2, 0));
+  EXPECT_EQ(all[1].radius, 0.0125);
+  EXPECT_DOUBLE_EQ(total_length(tube), 0.3);
+}
+
+TEST(Tube, FitsItsBoundsTightly) {
+  const Tube tube = test::tube_through({{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.2, -0.3}});
+  EXPECT_TRUE(bounds(tube).min().isApprox(Vector3d(-0.0125, -0.0125, -0.3125), rounding));
+  EXPECT_TRUE(bounds(tube).max().isApprox(Vector3d(0.1125, 0.2125, 0.0125), rounding));
+}
+
+RC_GTEST_PROP(Transform, KeepsTheDistancesOfAllNodes, ()) {
+  const Tube before = any_tree();
+  Tube after = before;
+  transform(after, any_motion());
+  for (std::size_t i = 0; i < before.nodes.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const double distance = (before.nodes[i].position - before.nodes[k].position).norm();
+      RC_ASSERT(std::abs((after.nodes[i].position - after.nodes[k].position).norm() - distance) < rounding);
+    }
+  }
+}
+
+RC_GTEST_PROP(Transform, KeepsEdgesBetweenTheirNodes, ()) {
+  Tube tube = any_tree();
+  transform(tube, any_motion());
+  for (const Edge& edge : tube.edges) {
+    const Vector3d& a = tube.nodes[edge.from].position;
+    const Vector3d& b = tube.nodes[edge.to].position;
+    RC_ASSERT((edge.centre - (a + b) / 2).norm() < rounding);
+    RC_ASSERT((edge.rotation * Vector3d::UnitZ() * edge.length - (b - a)).norm() < rounding);
+    RC_ASSERT(std::abs(edge.rotation.norm() - 1) < rounding);
+  }
+}
+
+RC_GTEST_PROP(Transform, IsUndoneByItsInverse, ()) {
+  const Tube before = any_tree();
+  const Eigen::Isometry3d motion = any_motion();
+  Tube after = before;
+  transform(after, motion);
+  transform(after, motion.inverse());
+  for (std::size_t i = 0; i < before.nodes.size(); ++i) {
+    RC_ASSERT((after.nodes[i].position - before.nodes[i].position).norm() < rounding);
+  }
+  for (std::size_t i = 0; i < before.edges.size(); ++i) {
+    RC_ASSERT(after.edges[i].rotation.angularDistance(before.edges[i].rotation) < 1e-7);
+  }
+}
+
+RC_GTEST_PROP(RoundToNanometres, MovesNothingByMoreThanHalfAndHasNothingLeftToDo, ()) {
+  const Tube before = any_tree();
+  Tube once = before;
+  round_to_nanometres(once);
+  Tube twice = once;
+  round_to_nanometres(twice);
+  for (std::size_t i = 0; i < before.nodes.size(); ++i) {
+    const Vector3d shift = once.nodes[i].position - before.nodes[i].position;
+    RC_ASSERT(shift.cwiseAbs().maxCoeff() < 0.5e-9 + 1e-15);
+    RC_ASSERT(twice.nodes[i].position == once.nodes[i].position);
+  }
+  for (std::size_t i = 0; i < before.edges.size(); ++i) {
+    RC_ASSERT(twice.edges[i].rotation.coeffs() == once.edges[i].rotation.coeffs());
+    RC_ASSERT(std::abs(once.edges[i].length - before.edges[i].length) < 0.5e-9 + 1e-15);
+  }
+}
+
+}  // namespace
+}  // namespace tanglebin

@@ -1,0 +1,212 @@
+#include "tanglebin/model/axis/axis_method.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "tanglebin/base/random.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/score/score.hpp"
+#include "tanglebin/score/score_tubes.hpp"
+#include "tests/model/scene/scanned.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+using test::cloud_of;
+using test::paper_scene;
+using test::scanned;
+using testing::IsEmpty;
+
+AxisModel modelled(const PointCloud& cloud, const SegmentTree& segments = {{1, 2, 0.5}}) {
+  KnownScene known = paper_scene();
+  known.kinds[0].segments = segments;
+  return model_by_axes(cloud, known, 1, 1);
+}
+
+double micro_recall(const PointCloud& cloud, const AxisModel& found) {
+  return score(cloud.labels, found.model.labels).micro_recall;
+}
+
+// Three pieces at node 0, from where its arms go out.
+Tube star(const std::vector<Vector3d>& nodes) {
+  Tube tube{.id = 1, .radius = 0.0125, .mass = 0.5, .nodes = {}, .edges = {}};
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    tube.nodes.push_back({static_cast<int>(i) + 1, nodes[i]});
+    if (i == 0) continue;
+    const Vector3d arm = nodes[i] - nodes[0];
+    tube.edges.push_back({0, i, 1, (nodes[0] + nodes[i]) / 2,
+                          Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), arm), arm.norm()});
+  }
+  return tube;
+}
+
+TEST(AxisMethod, MeasuresATube) {
+  // Half a metre with two bends of about 30°.
+  const std::vector<Tube> tubes = {test::chain(
+      1, 0.0125,
+      {{-0.23, -0.05, 0.0125}, {-0.07, -0.05, 0.0125}, {0.07, 0.03, 0.0125}, {0.25, 0.03, 0.0125}})};
+  const PointCloud cloud = scanned(tubes);
+  const AxisModel found = modelled(cloud);
+  ASSERT_EQ(found.model.tubes.size(), 1U);
+  EXPECT_EQ(micro_recall(cloud, found), 1);
+  const TubesScore tubes_score = score_tubes(tubes, found.model.tubes);
+  EXPECT_LT(*tubes_score.centre_line_error, 0.0001);
+  EXPECT_LT(*tubes_score.centre_line_error_p95, 0.0005);
+  EXPECT_NEAR(total_length(found.model.tubes[0]), total_length(tubes[0]), 0.002);
+}
+
+TEST(AxisMethod, TellsTubesApartThatTouchAlongTheirLength) {
+  const PointCloud cloud = scanned({test::straight_tube(1, 0), test::straight_tube(2, 0.025)});
+  const AxisModel found = modelled(cloud);
+  EXPECT_EQ(found.model.tubes.size(), 2U);
+  EXPECT_GT(micro_recall(cloud, found), 0.999);
+}
+
+TEST(AxisMethod, JoinsWhatAnotherTubeHides) {
+  const PointCloud cloud =
+      scanned({test::straight_tube(1, 0), test::chain(2, 0.0125, {{0.05, -0.15, 0.04}, {0.02, 0.15, 0.04}})});
+  const AxisModel found = modelled(cloud);
+  EXPECT_EQ(found.kinds[0].fragments.size(), 3U);
+  EXPECT_EQ(found.model.tubes.size(), 2U);
+  EXPECT_EQ(micro_recall(cloud, found), 1);
+}
+
+TEST(AxisMethod, DoesNotJoinWhatIsSeenToBeApart) {
+  const PointCloud cloud = scanned({test::chain(1, 0.0125, {{-0.25, 0, 0.0125}, {-0.05, 0, 0.0125}}),
+                                    test::chain(2, 0.0125, {{0.02, 0, 0.0125}, {0.2, 0, 0.0125}})});
+  EXPECT_EQ(modelled(cloud).model.tubes.size(), 2U);
+}
+
+// The sensor is above the middle of the bin.
+TEST(AxisMethod, SaysNothingOfATubeThatIsHidden) {
+  const PointCloud cloud = scanned({test::chain(1, 0.0125, {{-0.25, 0, 0.038}, {0.25, 0, 0.038}}),
+                                    test::chain(2, 0.0125, {{-0.2, 0, 0.0125}, {0.2, 0, 0.0125}})});
+  ASSERT_EQ(std::ranges::count(cloud.labels, 2), 0);
+  const AxisModel found = modelled(cloud);
+  EXPECT_EQ(found.model.tubes.size(), 1U);
+  EXPECT_EQ(micro_recall(cloud, found), 1);
+}
+
+// In each pair one tube hides a part of the other.
+TEST(AxisMethod, FindsTubesOfSeveralRadii) {
+  const std::vector<Tube> tubes = {test::chain(1, 0.008, {{-0.2, 0.1, 0.008}, {0.2, 0.1, 0.008}}),
+                                   test::chain(2, 0.0125, {{0.0, -0.05, 0.03}, {0.02, 0.16, 0.03}}),
+                                   test::chain(3, 0.0125, {{-0.2, -0.1, 0.0125}, {0.2, -0.1, 0.0125}}),
+                                   test::chain(4, 0.008, {{-0.1, -0.16, 0.034}, {-0.1, 0.05, 0.034}})};
+  const PointCloud cloud = scanned(tubes);
+  KnownScene known = paper_scene();
+  known.kinds = {{.radius = 0.008, .segments = {{1, 2, 0.4}}}, {.radius = 0.0125, .segments = {{1, 2, 0.4}}}};
+  const AxisModel found = model_by_axes(cloud, known, 1, 1);
+  ASSERT_EQ(found.model.tubes.size(), 4U);
+  EXPECT_GT(micro_recall(cloud, found), 0.999);
+  EXPECT_LT(*score_tubes(tubes, found.model.tubes).centre_line_error, 0.0002);
+  EXPECT_EQ(std::ranges::count(found.model.tubes, 0.008, &Tube::radius), 2);
+}
+
+TEST(AxisMethod, FollowsATubeThatCrossesItselfInTheImage) {
+  const PointCloud cloud = scanned({test::chain(1, 0.0125,
+                                                {{-0.1, 0, 0.0125},
+                                                 {0.05, 0, 0.0125},
+                                                 {0.12, 0.06, 0.03},
+                                                 {0.05, 0.12, 0.05},
+                                                 {-0.02, 0.06, 0.06},
+                                                 {0.0, -0.08, 0.06}})});
+  const AxisModel found = modelled(cloud, {{1, 2, 0.6}});
+  EXPECT_EQ(found.model.tubes.size(), 1U);
+  EXPECT_GT(micro_recall(cloud, found), 0.999);
+}
+
+TEST(AxisMethod, FindsATubeThatStandsUpright) {
+  const PointCloud cloud = scanned({test::chain(1, 0.0125, {{0.1, 0.05, 0.0125}, {0.1, 0.05, 0.3}})});
+  const AxisModel found = modelled(cloud);
+  EXPECT_EQ(found.model.tubes.size(), 1U);
+  // Its top is seen, and of its side a point every few centimetres: these have no neighbours to tell a normal
+  // from.
+  EXPECT_GT(micro_recall(cloud, found), 0.7);
+}
+
+// What is known of the star below.
+const SegmentTree star_segments = {{1, 2, 0.2}, {1, 3, 0.128}, {1, 4, 0.128}};
+
+TEST(AxisMethod, FindsJunctionsWhereThereMayBeSome) {
+  const std::vector<Tube> tubes = {
+      star({{0, 0, 0.0125}, {-0.2, 0, 0.0125}, {0.1, 0.08, 0.0125}, {0.1, -0.08, 0.0125}})};
+  const PointCloud cloud = scanned(tubes);
+  const AxisModel found = modelled(cloud, star_segments);
+  ASSERT_EQ(found.model.tubes.size(), 1U);
+  EXPECT_EQ(micro_recall(cloud, found), 1);
+  const Tube& tree = found.model.tubes[0];
+  std::vector<int> degrees(tree.nodes.size());
+  Vector3d junction(1, 1, 1);
+  for (const Edge& edge : tree.edges) {
+    for (const std::size_t node : {edge.from, edge.to}) {
+      if (++degrees[node] == 3) junction = tree.nodes[node].position;
+    }
+  }
+  EXPECT_EQ(std::ranges::count(degrees, 3), 1);
+  EXPECT_EQ(std::ranges::count(degrees, 1), 3);
+  EXPECT_LT((junction - tubes[0].nodes[0].position).norm(), 0.01);
+}
+
+TEST(AxisMethod, WritesTubesThatCanBeRead) {
+  const std::vector<Tube> tubes = {
+      star({{0, 0, 0.0125}, {-0.2, 0, 0.0125}, {0.1, 0.08, 0.0125}, {0.1, -0.08, 0.0125}})};
+  const AxisModel found = modelled(scanned(tubes), star_segments);
+  std::stringstream text;
+  write_configuration(text, found.model.tubes);
+  EXPECT_EQ(read_configuration(text, "tubes.txt").size(), found.model.tubes.size());
+}
+
+TEST(AxisMethod, FindsNothingInABallThatIsNoTube) {
+  std::vector<Eigen::Vector3f> ball;
+  constexpr int steps = 200;
+  for (int i = 0; i < steps; ++i) {
+    for (int j = 0; j < steps; ++j) {
+      const Vector3d p(-0.06 + 0.12 * i / steps, -0.06 + 0.12 * j / steps, 0);
+      if (p.norm() < 0.058) ball.emplace_back(p.x(), p.y(), 0.06 + std::sqrt(0.0036 - p.squaredNorm()));
+    }
+  }
+  EXPECT_THAT(modelled(cloud_of(ball)).model.tubes, IsEmpty());
+}
+
+TEST(AxisMethod, FindsNothingInNoise) {
+  Rng rng(1);
+  std::vector<Eigen::Vector3f> noise;
+  for (int i = 0; i < 5000; ++i) {
+    noise.push_back(
+        Vector3d(uniform_real(rng, -0.25, 0.25), uniform_real(rng, -0.15, 0.15), uniform_real(rng, 0.01, 0.2))
+            .cast<float>());
+  }
+  EXPECT_THAT(modelled(cloud_of(noise)).model.tubes, IsEmpty());
+}
+
+// Box and Muller 1958.
+double normal_number(Rng& rng) {
+  const double radius = std::sqrt(-2 * std::log(1 - uniform_real(rng, 0, 1)));
+  return radius * std::cos(2 * std::numbers::pi * uniform_real(rng, 0, 1));
+}
+
+TEST(AxisMethod, BearsNoise) {
+  PointCloud cloud = scanned({test::straight_tube(1, 0), test::straight_tube(2, 0.025),
+                              test::chain(3, 0.0125, {{0.05, -0.15, 0.04}, {0.02, 0.15, 0.04}})});
+  Rng rng(1);
+  const Vector3d sensor = paper_scene().camera.pose.translation();
+  for (Eigen::Vector3f& point : cloud.points) {
+    const Vector3d ray = (point.cast<double>() - sensor).normalized();
+    point += (0.0005 * normal_number(rng) * ray).cast<float>();
+  }
+  const AxisModel found = modelled(cloud);
+  EXPECT_EQ(found.model.tubes.size(), 3U);
+  const auto all =
+      static_cast<double>(std::ranges::count_if(cloud.labels, [](int label) { return label > 0; }));
+  EXPECT_GT(micro_recall(cloud, found), 0.99) << all;
+}
+
+}  // namespace
+}  // namespace tanglebin

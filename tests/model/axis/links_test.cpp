@@ -1,0 +1,79 @@
+#include "tanglebin/model/axis/links.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/model/axis/straight_fragment.hpp"
+#include "tests/model/scene/scanned.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::straight_fragment;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// Nothing was seen, so that nothing was seen to be empty.
+std::vector<Link> links_of(const std::vector<Fragment>& fragments, const TubeKind& kind,
+                           const PointCloud& seen = {}) {
+  return find_links(fragments, RangeImage(seen, camera_preset("paper")), kind, {});
+}
+
+TEST(Links, JoinEndsThatFaceEachOtherAndSayHowFarApartTheyAre) {
+  const std::vector<Link> links = links_of({straight_fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
+                                            straight_fragment({0, 0, 0.05}, {0.15, 0, 0.05})},
+                                           {});
+  ASSERT_THAT(links, SizeIs(1));
+  const Link& link = links.front();
+  EXPECT_EQ(link.kind, LinkKind::chain_ends);
+  EXPECT_EQ(link.fragment, 0U);
+  EXPECT_EQ(link.end, 1U);
+  EXPECT_EQ(link.to.fragment, 1U);
+  EXPECT_EQ(link.to.end, 0U);
+  EXPECT_NEAR(link.gap, 0.05, 1e-12);
+  // 1, ln(gap + 2 mm), gap, no angles, nothing that was seen, and nothing in the way.
+  EXPECT_THAT(link.features, ElementsAre(1, testing::DoubleNear(std::log(0.052), 1e-12),
+                                         testing::DoubleNear(0.05, 1e-12), testing::DoubleNear(0, 1e-6),
+                                         testing::DoubleNear(0, 1e-6), testing::DoubleNear(0, 1e-6), 0, 0));
+}
+
+TEST(Links, AreNotWhereTheSensorSawThatThereIsNothing) {
+  const std::vector<Fragment> fragments = {straight_fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
+                                           straight_fragment({0.05, 0, 0.05}, {0.2, 0, 0.05})};
+  EXPECT_THAT(links_of(fragments, {}), testing::Not(IsEmpty()));
+  // The empty bin: the sensor saw its floor between the two.
+  EXPECT_THAT(links_of(fragments, {}, test::scanned({})), IsEmpty());
+}
+
+// A fragment that crosses the gap halfway, at different heights.
+TEST(Links, KnowWhatIsInTheirWay) {
+  const auto obstruction_by = [](double height) {
+    const std::vector<Link> links = links_of({straight_fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
+                                              straight_fragment({0.05, 0, 0.05}, {0.2, 0, 0.05}),
+                                              straight_fragment({0, 0, height}, {0, 0.1, height})},
+                                             {});
+    const auto is_across = [](const Link& link) { return link.fragment == 0 && link.to.fragment == 1; };
+    const auto link = std::ranges::find_if(links, is_across);
+    return link == links.end() ? 1 : link->features[7];
+  };
+  EXPECT_EQ(obstruction_by(0.05 + 2 * test::radius), 0);
+  EXPECT_GT(obstruction_by(0.05 + 1.5 * test::radius), 0);
+  EXPECT_GT(obstruction_by(0.05 + test::radius), obstruction_by(0.05 + 1.5 * test::radius));
+}
+
+TEST(Links, MakeNoTubeLongerThanItIs) {
+  TubeKind kind;
+  const std::vector<Fragment> fragments = {straight_fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
+                                           straight_fragment({0, 0, 0.05}, {0.15, 0, 0.05})};
+  kind.segments[0].length = 0.36;
+  EXPECT_THAT(links_of(fragments, kind), testing::Not(IsEmpty()));
+  kind.segments[0].length = 0.33;
+  EXPECT_THAT(links_of(fragments, kind), IsEmpty());
+}
+
+}  // namespace
+}  // namespace tanglebin

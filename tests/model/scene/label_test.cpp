@@ -1,0 +1,61 @@
+#include "tanglebin/model/scene/label.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tanglebin/base/random.hpp"
+#include "tests/model/scene/scanned.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::cloud_of;
+using testing::Each;
+using testing::ElementsAre;
+
+TEST(LabelByNearest, GivesAPointToTheNearestSurface) {
+  const std::vector<Tube> tubes = {test::straight_tube(1, 0), test::straight_tube(2, 0.03)};
+  // Their surfaces are 5 mm apart, from y = 12.5 to 17.5 mm.
+  const PointCloud cloud = cloud_of(
+      {{0, 0.013F, 0.0125F}, {0, 0.017F, 0.0125F}, {0, 0, 0.026F}, {0, 0, 0.04F}, {0.3F, 0, 0.0125F}});
+  const LabelSettings near{.distance_max = 0.004};
+  EXPECT_THAT(label_by_nearest(cloud, {0, 1, 2, 3, 4}, tubes, near),
+              ElementsAre(1, 2, 1, null_label, null_label));
+  EXPECT_THAT(label_by_nearest(cloud, {3, 1}, tubes, near), ElementsAre(null_label, 2));
+}
+
+TEST(LabelByNearest, AgreesWithALoopOverAllPairs) {
+  Rng rng(11);
+  const Bin bin = bin_preset("paper");
+  const std::vector<Tube> tubes = test::random_pile(rng, 8, bin);
+  const PointCloud cloud = test::scanned(tubes);
+  std::vector<std::size_t> points;
+  for (std::size_t i = 0; i < cloud.points.size(); i += 7) points.push_back(i);
+  const LabelSettings settings;
+  const std::vector<std::int32_t> labels = label_by_nearest(cloud, points, tubes, settings);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d point = cloud.points[points[i]].cast<double>();
+    double nearest = settings.distance_max;
+    std::int32_t label = null_label;
+    for (const Tube& tube : tubes) {
+      for (const Capsule& capsule : capsules(tube)) {
+        const double distance =
+            std::abs(closest_points(point, point, capsule.a, capsule.b).distance - capsule.radius);
+        if (distance < nearest - 1e-12) {
+          nearest = distance;
+          label = tube.id;
+        }
+      }
+    }
+    ASSERT_EQ(labels[i], label) << "point " << points[i];
+  }
+}
+
+TEST(LabelByNearest, WithoutTubesOrPointsIsNullOrNothing) {
+  const PointCloud cloud = cloud_of({{0, 0, 0.1F}, {0, 0, 0.2F}});
+  EXPECT_THAT(label_by_nearest(cloud, {0, 1}, {}, {}), Each(null_label));
+  EXPECT_TRUE(label_by_nearest(cloud, {}, {test::straight_tube(1, 0)}, {}).empty());
+}
+
+}  // namespace
+}  // namespace tanglebin

@@ -1,0 +1,759 @@
+#include "tanglebin/recipe/recipe.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/recipe/case_id.hpp"
+#include "tanglebin/recipe/toml_table.hpp"
+#include "tests/support/complaint.hpp"
+
+namespace tanglebin {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr double degree = std::numbers::pi / 180;
+
+const std::string smallest =
+    "[[set]]\n"
+    "name = \"A\"\n"
+    "tubes = [1, 10]\n"
+    "[set.tube]\n"
+    "radius = 0.0125\n"
+    "mass = 0.5\n"
+    "length = 0.5\n"
+    "bend_max_deg = 30\n";
+
+const std::string tree =
+    "[[set]]\n"
+    "name = \"C\"\n"
+    "tubes = [1]\n"
+    "[set.tube]\n"
+    "radius = 0.0125\n"
+    "mass = 0.75\n"
+    "[[set.tube.segment]]\n"
+    "from = 1\n"
+    "to = 2\n"
+    "length = 0.3\n"
+    "bend_max_deg = 20\n"
+    "[[set.tube.segment]]\n"
+    "from = 1\n"
+    "to = 3\n"
+    "length = 0.1\n"
+    "cylinders_min = 2\n"
+    "cylinders_max = 5\n"
+    "bend_max_deg = 20\n";
+
+Recipe read(const std::string& text) {
+  std::istringstream in(text);
+  return read_recipe(in, "r.toml");
+}
+
+std::string write(const Recipe& recipe) {
+  std::ostringstream out;
+  write_recipe(out, recipe);
+  return out.str();
+}
+
+std::string complaint(const std::string& text) {
+  return test::complaint([&] { read(text); });
+}
+
+// What is said of the smallest recipe (or another) after one change of its text.
+std::string complaint_after(const std::string& old_text, const std::string& new_text,
+                            std::string text = smallest) {
+  const std::size_t place = text.find(old_text);
+  EXPECT_NE(place, std::string::npos) << "the example has no " << old_text;
+  return complaint(text.replace(place, old_text.size(), new_text));
+}
+
+// How many settings a struct has, so that none is forgotten in the recipe.
+struct AnySetting {
+  template <typename Value>
+  operator Value() const;
+};
+template <typename Struct, typename... Settings>
+constexpr std::size_t settings() {
+  if constexpr (requires { Struct{Settings{}..., AnySetting{}}; })
+    return settings<Struct, Settings..., AnySetting>();
+  else
+    return sizeof...(Settings);
+}
+
+// The keys of a section of a written recipe.
+std::vector<std::string> keys(const std::string& text, const std::string& section) {
+  std::istringstream in(text.substr(text.find("[" + section + "]\n")));
+  std::vector<std::string> result;
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line) && !line.empty()) result.push_back(line.substr(0, line.find(' ')));
+  return result;
+}
+
+TEST(Recipe, ASetIsEnough) {
+  const Recipe recipe = read(smallest);
+
+  EXPECT_EQ(recipe.seed, 0U);
+  EXPECT_EQ(recipe.attempts, 100);
+  EXPECT_EQ(recipe.bin.length, bin_preset("paper").length);
+  EXPECT_EQ(recipe.camera.fx, camera_preset("paper").fx);
+  EXPECT_EQ(recipe.settle.step, SettleSettings{}.step);
+  EXPECT_TRUE(recipe.output.bin_points);
+  EXPECT_FALSE(recipe.output.pcds);
+  ASSERT_EQ(recipe.sets.size(), 1U);
+  EXPECT_EQ(recipe.sets[0].name, "A");
+  EXPECT_THAT(recipe.sets[0].tubes, ElementsAre(1, 10));
+  EXPECT_EQ(recipe.sets[0].cases, 20);
+  const TubeSpec& spec = recipe.sets[0].kinds[0];
+  EXPECT_EQ(spec.radius, 0.0125);
+  EXPECT_EQ(spec.mass, 0.5);
+  ASSERT_EQ(spec.segments.size(), 1U);
+  EXPECT_EQ(spec.segments[0].from, 1);
+  EXPECT_EQ(spec.segments[0].to, 2);
+  EXPECT_EQ(spec.segments[0].length, 0.5);
+  EXPECT_EQ(spec.segments[0].cylinders_min, 5);
+  EXPECT_EQ(spec.segments[0].cylinders_max, 10);
+  EXPECT_EQ(spec.segments[0].cylinder_length_min, 0.02);
+  EXPECT_EQ(spec.segments[0].bend_min, 0.0);
+  EXPECT_EQ(spec.segments[0].bend_max, 30 * degree);
+}
+
+TEST(Recipe, WritesNumbersOfAnySizeAsTomlHasThem) {
+  EXPECT_EQ(real_text(1), "1.0");
+  EXPECT_EQ(real_text(-0.0), "-0.0");
+  EXPECT_EQ(real_text(0.25), "0.25");
+  EXPECT_EQ(real_text(1e-5), "1e-05");
+  for (int exponent = -20; exponent <= 20; ++exponent) {
+    Recipe recipe = read(smallest);
+    recipe.camera.fx = std::pow(10, exponent);
+    recipe.camera.pose.translation().x() = -std::pow(10, exponent);
+    const Recipe again = read(write(recipe));
+    EXPECT_EQ(again.camera.fx, recipe.camera.fx);
+    EXPECT_EQ(again.camera.pose.translation(), recipe.camera.pose.translation());
+  }
+}
+
+TEST(Recipe, TakesCommentsInAnyLanguage) {
+  EXPECT_EQ(read("seed = 3  # größer als 2, ≥ 3\n" + smallest).seed, 3U);
+}
+
+TEST(Recipe, ReadsTreesOfSegments) {
+  const Recipe recipe = read(tree);
+
+  const std::vector<Segment>& segments = recipe.sets.at(0).kinds.at(0).segments;
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_EQ(segments[1].from, 1);
+  EXPECT_EQ(segments[1].to, 3);
+  EXPECT_EQ(segments[1].length, 0.1);
+  EXPECT_EQ(segments[1].cylinders_max, 5);
+  EXPECT_EQ(segments[1].bend_max, 20 * degree);
+}
+
+const std::string two_kinds =
+    "[[set]]\nname = \"M\"\ntubes = [4]\n"
+    "[[set.tube]]\nradius = 0.008\nmass = 0.2\nlength = 0.4\nbend_max_deg = 30\n"
+    "[[set.tube]]\nradius = 0.0125\nmass = 0.5\n"
+    "[[set.tube.segment]]\nfrom = 1\nto = 2\nlength = 0.3\nbend_max_deg = 30\n"
+    "[[set.tube.segment]]\nfrom = 2\nto = 3\nlength = 0.2\nbend_max_deg = 30\n";
+
+TEST(Recipe, ReadsSeveralKindsOfTubesForOneBin) {
+  const Recipe recipe = read(two_kinds);
+  const std::vector<TubeSpec>& kinds = recipe.sets.at(0).kinds;
+  ASSERT_EQ(kinds.size(), 2U);
+  EXPECT_EQ(kinds[0].radius, 0.008);
+  EXPECT_EQ(kinds[0].segments.size(), 1U);
+  EXPECT_EQ(kinds[1].radius, 0.0125);
+  EXPECT_EQ(kinds[1].segments.size(), 2U);
+  EXPECT_EQ(write(read(write(recipe))), write(recipe));
+}
+
+TEST(Recipe, SaysWhichKindOfTubesIsNone) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = two_kinds;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  EXPECT_EQ(complaint(with("radius = 0.0125", "radius = -1")),
+            "r.toml:10: set[0].tube[1].radius: found -1, expected a positive number");
+  EXPECT_EQ(complaint(with("length = 0.4", "length = 4.0")).find("r.toml:7: set[0].tube[0].length"), 0U);
+  EXPECT_EQ(complaint("[[set]]\nname = \"M\"\ntubes = [4]\ntube = []\n"),
+            "r.toml:4: set[0].tube: found none, expected at least one [[set.tube]]");
+}
+
+TEST(Recipe, OverridesAPreset) {
+  const Recipe recipe = read(
+      "seed = 7\nattempts = 3\n[bin]\npreset = \"published\"\nheight = 1\n"
+      "[settle]\nstep = 0.001\niterations = 20\n[output]\npcds = true\n" +
+      smallest);
+  EXPECT_EQ(recipe.seed, 7U);
+  EXPECT_EQ(recipe.attempts, 3);
+  EXPECT_EQ(recipe.bin.length, 0.8);
+  EXPECT_EQ(recipe.bin.height, 1.0);
+  EXPECT_EQ(recipe.settle.step, 0.001);
+  EXPECT_EQ(recipe.settle.iterations, 20);
+  EXPECT_TRUE(recipe.output.pcds);
+}
+
+TEST(Recipe, AnotherImageSizeKeepsThePresetsFieldOfView) {
+  const Camera preset = camera_preset("paper");
+  const Camera camera = read("[scanner]\nwidth = 960\nheight = 600\n" + smallest).camera;
+  EXPECT_EQ(camera.width, 960);
+  EXPECT_EQ(camera.height, 600);
+  EXPECT_DOUBLE_EQ(std::atan(camera.width / camera.fx), std::atan(preset.width / preset.fx));
+  EXPECT_EQ(camera.fx, camera.fy);
+  EXPECT_EQ(camera.cx, 479.5);
+  EXPECT_EQ(camera.cy, 299.5);
+}
+
+TEST(Recipe, TellsTheLensInThreeWays) {
+  EXPECT_EQ(read("[scanner]\nhfov_deg = 90\n" + smallest).camera.fx,
+            focal_length_from_hfov(1920, 90 * degree));
+  EXPECT_EQ(read("[scanner]\nfocal_length_px = 2000\n" + smallest).camera.fy, 2000.0);
+  const Camera camera = read("[scanner]\nfx = 1000\nfy = 1001\ncx = 900.5\ncy = 601\n" + smallest).camera;
+  EXPECT_EQ(camera.fx, 1000.0);
+  EXPECT_EQ(camera.fy, 1001.0);
+  EXPECT_EQ(camera.cx, 900.5);
+  EXPECT_EQ(camera.cy, 601.0);
+}
+
+TEST(Recipe, PlacesTheScannerAnywhere) {
+  // A quarter turn about x, in few digits: the camera looks along -y.
+  const Camera camera =
+      read("[scanner]\nposition = [0, 1.5, 0.25]\nrotation_wxyz = [0.7071, 0.7071, 0, 0]\n" + smallest)
+          .camera;
+  EXPECT_EQ(camera.pose.translation(), Eigen::Vector3d(0, 1.5, 0.25));
+  EXPECT_TRUE((camera.pose.linear() * Eigen::Vector3d::UnitZ()).isApprox(-Eigen::Vector3d::UnitY()));
+  EXPECT_TRUE(camera.pose.linear().isUnitary(1e-15)) << "although the quaternion's norm is not quite 1";
+
+  const Camera turned =
+      read("[scanner]\nrotation_matrix = [[0, 1, 0], [1, 0, 0], [0, 0, -1]]\n" + smallest).camera;
+  EXPECT_EQ(turned.pose.linear() * Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY());
+  EXPECT_EQ(turned.pose.translation(), camera_preset("paper").pose.translation());
+}
+
+TEST(Recipe, WritesEverySettingThatThereIs) {
+  const std::string text = write(read(smallest));
+
+  EXPECT_EQ(keys(text, "bin").size(), settings<Bin>());
+  EXPECT_EQ(keys(text, "settle").size(), settings<SettleSettings>())
+      << "a setting has no line in settle_fields (recipe.cpp)";
+  EXPECT_EQ(keys(text, "output").size(), settings<OutputSettings>() - 1)
+      << "properties have keys of their own";
+  EXPECT_EQ(keys(write(read(tree)), "[set.tube.segment]").size(), settings<Segment>());
+  EXPECT_THAT(keys(text, "scanner"),
+              ElementsAre("width", "height", "fx", "fy", "cx", "cy", "position", "rotation_matrix"));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("preset =")));
+}
+
+TEST(Recipe, OneWordChoosesBetweenTheIdealScannerAndABelievableOne) {
+  EXPECT_EQ(read(smallest).sensor, Sensor{});
+  EXPECT_EQ(read("[scanner]\npreset = \"paper\"\n" + smallest).sensor, Sensor{});
+  const Recipe zivid = read("[scanner]\npreset = \"zivid-one-plus-l\"\n" + smallest);
+  EXPECT_EQ(zivid.sensor, sensor_preset("zivid-one-plus-l"));
+  EXPECT_EQ(zivid.camera.fx, 2730.0);
+}
+
+TEST(Recipe, SwitchesTheTermsOfAScannerOneByOne) {
+  const Sensor sensor =
+      read("[scanner]\nsigma = 0.0002\ndropout = 0.05\nedges = \"drop\"\nsub_rays = 2\n" + smallest).sensor;
+  EXPECT_EQ(sensor, (Sensor{.sigma = 0.0002, .dropout = 0.05, .edges = Edges::drop, .sub_rays = 2}));
+  Sensor no_shadows = sensor_preset("zivid-one-plus-l");
+  no_shadows.shadows = false;
+  EXPECT_EQ(read("[scanner]\npreset = \"zivid-one-plus-l\"\nshadows = false\n" + smallest).sensor,
+            no_shadows);
+  EXPECT_EQ(complaint("[scanner]\nedges = \"blur\"\n" + smallest),
+            "r.toml:2: scanner.edges: found 'blur', expected \"keep\", \"drop\" or \"mix\"");
+  EXPECT_THAT(complaint("[scanner]\n\nbaseline = 0\n" + smallest),
+              HasSubstr("r.toml:3: scanner.baseline: found 0, expected a positive distance"));
+}
+
+TEST(Recipe, WritesEveryTermOfAScannerThatIsNotIdeal) {
+  const Recipe zivid = read("[scanner]\npreset = \"zivid-one-plus-l\"\nbaseline = 0.3\n" + smallest);
+  const std::string text = write(zivid);
+  EXPECT_EQ(keys(text, "scanner").size(), 8 + settings<Sensor>())
+      << "a setting has no line in sensor_fields (recipe.cpp)";
+  EXPECT_EQ(read(text).sensor, zivid.sensor);
+}
+
+TEST(Recipe, TheCommandLineSetsWhatARecipesScannerHas) {
+  const Scanner scanner = scanner_with("paper", {"scanner.sigma=0.0002", "scanner.edges=drop"}, "--set");
+  EXPECT_EQ(scanner.sensor, (Sensor{.sigma = 0.0002, .edges = Edges::drop}));
+  EXPECT_EQ(scanner.camera.fx, camera_preset("paper").fx);
+  const auto said = [](const std::string& setting) {
+    return test::complaint([&] { scanner_with("paper", {"scanner.sigma=0.0002", setting}, "--set"); });
+  };
+  EXPECT_THAT(said("scanner.baseline=0"), HasSubstr("--set:2: scanner.baseline: found 0"));
+  EXPECT_THAT(said("scanner.focal_length_px=0"), HasSubstr("--set:2: scanner.focal_length_px: found 0"));
+  EXPECT_THAT(said("scanner.basline=0.1"), HasSubstr("did you mean 'baseline'?"));
+  EXPECT_THAT(said("bin.length=1"), HasSubstr("unknown key 'bin'"));
+  EXPECT_THAT(said("scanner.name=left"), HasSubstr("unknown key 'name'"));
+  EXPECT_THAT(said("scanner.edges=Mix"), HasSubstr("found 'Mix', expected \"keep\", \"drop\" or \"mix\""));
+  EXPECT_THAT(said("scanner.dropout=1mm"), HasSubstr("--set:2: "));
+  EXPECT_THAT(said("scanner.dropout=much"),
+              HasSubstr("--set:2: scanner.dropout: found 'much', expected a number"));
+  EXPECT_THAT(said("scanner.dropout=inf"), HasSubstr("scanner.dropout: found inf, expected a finite number"));
+  EXPECT_THAT(said("scanner.shadows=yes"), HasSubstr("expected true or false"));
+  EXPECT_EQ(said("scanner.shadows=true"), "none");
+  EXPECT_THAT(said("scanner.dropout=\xC3\xA9"), HasSubstr("--set:2: "))
+      << "a character that TOML has not there";
+  EXPECT_THAT(said("scanner.edges=m\xC3\xAFx"), HasSubstr("found 'm\?\?x'"));
+}
+
+TEST(Recipe, TheOneScannerOfARecipeNeedsNoName) {
+  EXPECT_THAT(complaint("[scanner]\nname = \"left\"\n" + smallest),
+              HasSubstr("r.toml:2: scanner: unknown key 'name'"));
+}
+
+const std::string two_scanners =
+    "[[scanner]]\nname = \"above\"\n[[scanner]]\nname = \"beside\"\npreset = \"zivid-one-plus-l\"\n"
+    "position = [0, 1, 1.5]\nlook_at = [0, 0, 0.1]\n";
+
+TEST(Recipe, HasSeveralScannersAndPosesForOneScene) {
+  const Recipe recipe = read(two_scanners + smallest);
+  EXPECT_EQ(recipe.scanner_name, "above");
+  EXPECT_EQ(recipe.sensor, Sensor{});
+  ASSERT_EQ(recipe.further_scanners.size(), 1U);
+  const Scanner& beside = recipe.further_scanners[0];
+  EXPECT_EQ(beside.name, "beside");
+  EXPECT_EQ(beside.sensor, sensor_preset("zivid-one-plus-l"));
+  const Eigen::Vector3d target(0, 0, 0.1);
+  EXPECT_TRUE((*project(beside.camera, target)).isApprox(Eigen::Vector2d(959.5, 599.5)));
+  EXPECT_TRUE(beside.camera.pose.linear().col(0).isApprox(Eigen::Vector3d::UnitX()));
+  EXPECT_EQ(write(read(write(recipe))), write(recipe));
+}
+
+TEST(Recipe, SaysWhichOfSeveralScannersIsWrong) {
+  EXPECT_THAT(complaint(two_scanners + "baseline = 0\n" + smallest),
+              HasSubstr("r.toml:8: scanner[1].baseline: found 0"));
+  EXPECT_THAT(complaint_after("\"beside\"", "\"above\"", two_scanners + smallest),
+              HasSubstr("r.toml:4: scanner[1].name: found 'above' a second time"));
+  EXPECT_THAT(complaint_after("\"beside\"", "\"plys\"", two_scanners + smallest),
+              HasSubstr("scanner[1].name: found 'plys', expected a name that is no other folder's"));
+  EXPECT_THAT(complaint("[[scanner]]\npreset = \"paper\"\n" + smallest),
+              HasSubstr("scanner[0].name: is missing"));
+  EXPECT_THAT(complaint("[scanner]\nlook_at = [1, 0, 2]\n" + smallest),
+              HasSubstr("along the world's x axis"));
+  EXPECT_THAT(complaint("[scanner]\nlook_at = [0, 0, 2]\n" + smallest), HasSubstr("or nowhere"));
+}
+
+TEST(Recipe, WritesThePropertiesOfPointsWhereAnyIsAskedFor) {
+  EXPECT_THAT(write(read(smallest)), ::testing::Not(HasSubstr("normals")));
+  const Recipe recipe = read("[output]\nintensities = true\n" + smallest);
+  EXPECT_EQ(recipe.output.properties, (PointProperties{.intensities = true}));
+  EXPECT_EQ(read(write(recipe)).output.properties, recipe.output.properties);
+  EXPECT_EQ(keys(write(recipe), "output").size(), 5 + settings<PointProperties>());
+}
+
+TEST(Recipe, WritesDegreesAsAPersonWould) {
+  for (int degrees = 0; degrees <= 180; ++degrees) {
+    Recipe recipe = read(smallest);
+    recipe.sets[0].kinds[0].segments[0].bend_max = degrees * degree;
+    EXPECT_THAT(write(recipe), HasSubstr("bend_max_deg = " + std::to_string(degrees) + ".0\n"));
+  }
+}
+
+void expect_same(const Camera& camera, const Camera& other) {
+  EXPECT_EQ(camera.width, other.width);
+  EXPECT_EQ(camera.height, other.height);
+  EXPECT_EQ(camera.fx, other.fx);
+  EXPECT_EQ(camera.fy, other.fy);
+  EXPECT_EQ(camera.cx, other.cx);
+  EXPECT_EQ(camera.cy, other.cy);
+  EXPECT_EQ(camera.pose.matrix(), other.pose.matrix());
+}
+
+void expect_same(const TubeSpec& spec, const TubeSpec& other) {
+  EXPECT_EQ(spec.radius, other.radius);
+  EXPECT_EQ(spec.mass, other.mass);
+  ASSERT_EQ(spec.segments.size(), other.segments.size());
+  for (std::size_t i = 0; i < spec.segments.size(); ++i) {
+    EXPECT_EQ(spec.segments[i].from, other.segments[i].from);
+    EXPECT_EQ(spec.segments[i].to, other.segments[i].to);
+    EXPECT_EQ(spec.segments[i].length, other.segments[i].length);
+    EXPECT_EQ(spec.segments[i].cylinders_min, other.segments[i].cylinders_min);
+    EXPECT_EQ(spec.segments[i].cylinders_max, other.segments[i].cylinders_max);
+    EXPECT_EQ(spec.segments[i].cylinder_length_min, other.segments[i].cylinder_length_min);
+    EXPECT_EQ(spec.segments[i].bend_min, other.segments[i].bend_min);
+    EXPECT_EQ(spec.segments[i].bend_max, other.segments[i].bend_max);
+  }
+}
+
+// The settling's settings are compared as text: their table is one for reading and writing, and
+// WritesEverySettingThatThereIs sees that it is complete.
+void expect_same(const Recipe& recipe, const Recipe& other) {
+  EXPECT_EQ(write(recipe), write(other));
+  EXPECT_EQ(recipe.seed, other.seed);
+  EXPECT_EQ(recipe.attempts, other.attempts);
+  EXPECT_EQ(recipe.bin.length, other.bin.length);
+  EXPECT_EQ(recipe.bin.width, other.bin.width);
+  EXPECT_EQ(recipe.bin.height, other.bin.height);
+  EXPECT_EQ(recipe.bin.wall, other.bin.wall);
+  EXPECT_EQ(recipe.bin.friction, other.bin.friction);
+  expect_same(recipe.camera, other.camera);
+  EXPECT_EQ(recipe.output.bin_points, other.output.bin_points);
+  EXPECT_EQ(recipe.output.worlds, other.output.worlds);
+  EXPECT_EQ(recipe.output.pcds, other.output.pcds);
+  EXPECT_EQ(recipe.output.depths, other.output.depths);
+  EXPECT_EQ(recipe.output.labels, other.output.labels);
+  ASSERT_EQ(recipe.sets.size(), other.sets.size());
+  for (std::size_t i = 0; i < recipe.sets.size(); ++i) {
+    EXPECT_EQ(recipe.sets[i].name, other.sets[i].name);
+    EXPECT_EQ(recipe.sets[i].tubes, other.sets[i].tubes);
+    EXPECT_EQ(recipe.sets[i].cases, other.sets[i].cases);
+    ASSERT_EQ(recipe.sets[i].kinds.size(), other.sets[i].kinds.size());
+    for (std::size_t kind = 0; kind < recipe.sets[i].kinds.size(); ++kind)
+      expect_same(recipe.sets[i].kinds[kind], other.sets[i].kinds[kind]);
+  }
+}
+
+// Real numbers that use all their digits.
+double any_real(double low, double high) {
+  constexpr auto steps = std::int64_t{1} << 52;
+  const auto step = *rc::gen::noShrink(rc::gen::resize(100, rc::gen::inRange<std::int64_t>(0, steps)));
+  return low + (high - low) * static_cast<double>(step) / static_cast<double>(steps);
+}
+
+Camera any_camera() {
+  Camera camera;
+  camera.width = *rc::gen::inRange(1, 5000);
+  camera.height = *rc::gen::inRange(1, 5000);
+  camera.fx = any_real(1, 5000);
+  camera.fy = any_real(1, 5000);
+  camera.cx = any_real(-100, 5000);
+  camera.cy = any_real(-100, 5000);
+  const Eigen::Quaterniond rotation(any_real(0.1, 1), any_real(-1, 1), any_real(-1, 1), any_real(-1, 1));
+  camera.pose.linear() = rotation.normalized().toRotationMatrix();
+  camera.pose.translation() = Eigen::Vector3d(any_real(-5, 5), any_real(-5, 5), any_real(-5, 5));
+  return camera;
+}
+
+// An angle as read_recipe() gives it.
+double any_angle(double low_degrees, double high_degrees) {
+  return (*rc::gen::arbitrary<bool>() ? std::floor(any_real(low_degrees, high_degrees))
+                                      : any_real(low_degrees, high_degrees)) *
+         degree;
+}
+
+TubeSpec any_kind() {
+  TubeSpec spec;
+  spec.radius = any_real(0.001, 0.1);
+  spec.mass = any_real(0.001, 10);
+  spec.segments.clear();
+  const int segments = *rc::gen::inRange(1, 5);
+  for (int to = 2; to <= segments + 1; ++to) {
+    Segment segment;
+    segment.from = *rc::gen::inRange(1, to);
+    segment.to = to;
+    segment.length = any_real(0.1, 1);
+    segment.cylinders_max = *rc::gen::inRange(1, 20);
+    segment.cylinders_min = *rc::gen::inRange(1, segment.cylinders_max + 1);
+    segment.cylinder_length_min = segment.length / 20 * any_real(0.01, 1);
+    segment.bend_min = any_angle(0, 30);
+    segment.bend_max = any_angle(30, 180);
+    spec.segments.push_back(segment);
+  }
+  return spec;
+}
+
+SetRecipe any_set(const std::string& name) {
+  SetRecipe set;
+  set.name = name;
+  set.tubes = *rc::gen::nonEmpty(rc::gen::unique<std::vector<int>>(rc::gen::inRange(1, 1000)));
+  set.cases = *rc::gen::inRange(1, 1000);
+  const int kinds = *rc::gen::inRange(1, 4);
+  set.kinds.clear();
+  for (int i = 0; i < kinds; ++i) set.kinds.push_back(any_kind());
+  return set;
+}
+
+Recipe any_recipe() {
+  Recipe recipe;
+  recipe.seed = static_cast<std::uint64_t>(
+      *rc::gen::inRange<std::int64_t>(0, std::numeric_limits<std::int64_t>::max()));
+  recipe.attempts = *rc::gen::inRange(1, 1'000'000);
+  recipe.bin = {any_real(1, 3), any_real(1, 3), any_real(1, 3), any_real(0.001, 1), any_real(0.1, 1000)};
+  recipe.camera = any_camera();
+  recipe.settle.step = SettleSettings{}.step * any_real(0.5, 1);
+  recipe.output = {*rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(),
+                   *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>()};
+  // Names that end in different letters share no folder.
+  recipe.sets.push_back(any_set("A"));
+  if (*rc::gen::arbitrary<bool>()) recipe.sets.push_back(any_set("set-b_2x"));
+  return recipe;
+}
+
+RC_GTEST_PROP(RecipeProperty, WhatIsWrittenReadsBackBitForBit, ()) {
+  const Recipe recipe = any_recipe();
+  expect_same(read(write(recipe)), recipe);
+}
+
+RC_GTEST_PROP(RecipeProperty, DegreesComeBackAsTheSameRadians, ()) {
+  Recipe recipe = read(smallest);
+  const double radians = any_real(0, 180) * degree;
+  recipe.sets[0].kinds[0].segments[0].bend_max = radians;
+  RC_ASSERT(read(write(recipe)).sets[0].kinds[0].segments[0].bend_max == radians);
+}
+
+TEST(Recipe, AnAngleThatNoDegreesGiveIsWrittenAsTheNearest) {
+  Recipe recipe = read(smallest);
+  double radians = 1.2;
+  for (int i = 0; i < 100; ++i) {
+    radians = std::nextafter(radians, 2.0);
+    recipe.sets[0].kinds[0].segments[0].bend_max = radians;
+    EXPECT_DOUBLE_EQ(read(write(recipe)).sets[0].kinds[0].segments[0].bend_max, radians);
+  }
+}
+
+TEST(Recipe, AResolvedOneIsTheSameAsWhatItCameFrom) {
+  const Recipe recipe = read(
+      "seed = 9223372036854775807\n[scanner]\nhfov_deg = 71.3\n"
+      "rotation_wxyz = [0.1, 0.9, 0.3, -0.3]\n" +
+      tree);
+  expect_same(read(write(recipe)), recipe);
+}
+
+TEST(Recipe, OnesInTheRepositoryAreWhatTheySay) {
+  const auto file = [](const char* name) {
+    return std::filesystem::path(TANGLEBIN_SOURCE) / "recipes" / name;
+  };
+  EXPECT_EQ(cases(read_recipe(file("set-a.toml"))).size(), 320U);
+  EXPECT_EQ(cases(read_recipe(file("set-b.toml"))).size(), 320U);
+  EXPECT_EQ(cases(read_recipe(file("set-c.toml"))).size(), 250U);
+  EXPECT_EQ(cases(read_recipe(file("mixed.toml"))).size(), 60U);
+  EXPECT_EQ(cases(read_recipe(file("crowded.toml"))).size(), 50U);
+  const Recipe paper = read_recipe(file("paper.toml"));
+  EXPECT_EQ(cases(paper).size(), 640U);
+  EXPECT_EQ(paper.sets.at(0).kinds.at(0).segments.at(0).bend_max, 30 * degree);
+  EXPECT_EQ(paper.sets.at(1).kinds.at(0).segments.at(0).bend_max, 45 * degree);
+  // The same seed gives the same scenes in the recipe of one set and in that of both.
+  expect_same(paper.sets[0].kinds[0], read_recipe(file("set-a.toml")).sets.at(0).kinds.at(0));
+  expect_same(paper.sets[1].kinds[0], read_recipe(file("set-b.toml")).sets.at(0).kinds.at(0));
+  EXPECT_EQ(paper.seed, read_recipe(file("set-a.toml")).seed);
+}
+
+TEST(Cases, AreInTheRecipesOrder) {
+  Recipe recipe = read("[[set]]\nname = \"B\"\ntubes = [10, 2]\ncases = 2\n" +
+                       smallest.substr(smallest.find("[set.tube]")) + smallest);
+  recipe.sets[1].cases = 1;
+  EXPECT_THAT(cases(recipe), ElementsAre(CaseId{"B", 10, 1}, CaseId{"B", 10, 2}, CaseId{"B", 2, 1},
+                                         CaseId{"B", 2, 2}, CaseId{"A", 1, 1}, CaseId{"A", 10, 1}));
+  EXPECT_EQ(folder_name("A", 10), "A10");
+}
+
+TEST(RecipeErrors, NameAFileThatIsMissing) {
+  EXPECT_EQ(test::complaint([] { read_recipe(std::filesystem::path("/nowhere/r.toml")); }),
+            "/nowhere/r.toml: cannot be opened: No such file or directory");
+}
+
+TEST(RecipeErrors, NameAFolderThatIsNoFile) {
+  EXPECT_THROW(read_recipe(std::filesystem::temp_directory_path()), InputError);
+}
+
+TEST(RecipeErrors, NameTheLineThatIsNotToml) {
+  EXPECT_THAT(complaint("seed = 1\nattempts = = 2\n"), HasSubstr("r.toml:2: "));
+  EXPECT_THAT(complaint("seed = 1\nseed = 2\n"), HasSubstr("r.toml:2: "));
+  EXPECT_THAT(complaint("seed = \"\n"), HasSubstr("r.toml:1: "));
+  EXPECT_THAT(complaint("\n[[[set]]\n"), HasSubstr("r.toml:2: ")) << "found by fuzzing";
+  EXPECT_THAT(complaint("seed = 1 \xC3\xA9\n"), HasSubstr("r.toml:1: ")) << "found by fuzzing";
+  EXPECT_THAT(complaint("seed =t\n"),
+              ::testing::AllOf(HasSubstr("r.toml:1: "), ::testing::Not(HasSubstr("\n"))))
+      << "found by fuzzing";
+}
+
+TEST(RecipeErrors, GuessWhatAnUnknownKeyMeans) {
+  EXPECT_EQ(complaint("sead = 1\n" + smallest), "r.toml:1: unknown key 'sead', did you mean 'seed'?");
+  EXPECT_EQ(complaint("[bin]\nhieght = 1\n" + smallest),
+            "r.toml:2: bin: unknown key 'hieght', did you mean 'height'?");
+  EXPECT_EQ(complaint("[scanner]\nhfov = 1\n" + smallest),
+            "r.toml:2: scanner: unknown key 'hfov', did you mean 'hfov_deg'?");
+  EXPECT_EQ(complaint("[settle]\ntime_limt = 1\n" + smallest),
+            "r.toml:2: settle: unknown key 'time_limt', did you mean 'time_limit'?");
+  EXPECT_EQ(complaint_after("tubes =", "tube_counts = 3\ntubes ="),
+            "r.toml:3: set[0]: unknown key 'tube_counts', expected one of name, tubes, cases, tube");
+  EXPECT_EQ(complaint_after("bend_max_deg", "bend_max"),
+            "r.toml:8: set[0].tube: unknown key 'bend_max', did you mean 'bend_max_deg'?");
+  EXPECT_EQ(complaint_after("to = 3", "too = 3", tree),
+            "r.toml:14: set[0].tube.segment[1]: unknown key 'too', did you mean 'to'?");
+  EXPECT_EQ(complaint("[output]\nply = true\n" + smallest),
+            "r.toml:2: output: unknown key 'ply', expected one of bin_points, worlds, pcds, depths, labels, "
+            "normals, intensities, mixed");
+  EXPECT_EQ(complaint("\"a\\nb\" = 1\n" + smallest),
+            "r.toml:1: unknown key 'a\\x0ab', expected one of seed, attempts, bin, scanner, settle, output, set");
+}
+
+TEST(RecipeErrors, NameWhatIsMissing) {
+  EXPECT_EQ(complaint(""), "r.toml: set: found none, expected at least one [[set]]");
+  EXPECT_EQ(complaint_after("name = \"A\"\n", ""), "r.toml:1: set[0].name: is missing");
+  EXPECT_EQ(complaint_after("tubes = [1, 10]\n", ""), "r.toml:1: set[0].tubes: is missing");
+  EXPECT_EQ(complaint("[[set]]\nname = \"A\"\ntubes = [1]\n"), "r.toml:1: set[0].tube: is missing");
+  EXPECT_EQ(complaint_after("radius = 0.0125\n", ""), "r.toml:4: set[0].tube.radius: is missing");
+  EXPECT_EQ(complaint_after("bend_max_deg = 30\n", ""), "r.toml:4: set[0].tube.bend_max_deg: is missing");
+  EXPECT_EQ(complaint_after("to = 3\n", "", tree), "r.toml:12: set[0].tube.segment[1].to: is missing");
+}
+
+TEST(RecipeErrors, NameAValueOfTheWrongType) {
+  EXPECT_EQ(complaint("seed = \"7\"\n" + smallest), "r.toml:1: seed: found '7', expected a whole number");
+  EXPECT_EQ(complaint("attempts = 1.0\n" + smallest),
+            "r.toml:1: attempts: found 1.0, expected a whole number");
+  EXPECT_EQ(complaint("[bin]\nlength = true\n" + smallest),
+            "r.toml:2: bin.length: found true, expected a number");
+  EXPECT_EQ(complaint("[bin]\nlength = 1979-05-27\n" + smallest),
+            "r.toml:2: bin.length: found a date or time, expected a number");
+  EXPECT_EQ(complaint("[bin]\npreset = 1\n" + smallest), "r.toml:2: bin.preset: found 1, expected a string");
+  EXPECT_EQ(complaint("bin = 1\n" + smallest), "r.toml:1: bin: found 1, expected a table [bin]");
+  EXPECT_EQ(complaint("[output]\nworlds = 1\n" + smallest),
+            "r.toml:2: output.worlds: found 1, expected true or false");
+  EXPECT_EQ(complaint_after("[1, 10]", "10"),
+            "r.toml:3: set[0].tubes: found 10, expected an array of whole numbers");
+  EXPECT_EQ(complaint_after("[1, 10]", "[1, 2.5]"),
+            "r.toml:3: set[0].tubes: found 2.5, expected a whole number");
+  EXPECT_EQ(complaint("set = {}\n"), "r.toml:1: set: found a table, expected an array of tables [[set]]");
+  EXPECT_EQ(complaint("set = [1]\n"), "r.toml:1: set: found 1, expected an array of tables [[set]]");
+  EXPECT_EQ(complaint("[scanner]\nposition = [1, 2]\n" + smallest),
+            "r.toml:2: scanner.position: found an array of 2, expected an array of 3 numbers");
+  EXPECT_EQ(complaint("[scanner]\nrotation_matrix = [[1, 0, 0], [0, 1, 0]]\n" + smallest),
+            "r.toml:2: scanner.rotation_matrix: found an array of 2, expected an array of 3 rows");
+  EXPECT_EQ(complaint("[scanner]\nrotation_matrix = [1, 0, 0]\n" + smallest),
+            "r.toml:2: scanner.rotation_matrix: found 1, expected an array of 3 numbers");
+}
+
+TEST(RecipeErrors, NameANumberOutOfItsRange) {
+  EXPECT_EQ(complaint("seed = -1\n" + smallest),
+            "r.toml:1: seed: found -1, expected a whole number from 0 to 9223372036854775807");
+  EXPECT_THAT(complaint("seed = 9223372036854775808\n" + smallest), HasSubstr("r.toml:1: "));
+  EXPECT_EQ(complaint("attempts = 0\n" + smallest), "r.toml:1: attempts: found 0, expected at least 1");
+  EXPECT_EQ(complaint("attempts = 3000000000\n" + smallest),
+            "r.toml:1: attempts: found 3000000000, expected a whole number from -2147483648 to 2147483647");
+  EXPECT_EQ(complaint("[bin]\nlength = inf\n" + smallest),
+            "r.toml:2: bin.length: found inf, expected a finite number");
+  EXPECT_EQ(complaint("[bin]\nlength = nan\n" + smallest),
+            "r.toml:2: bin.length: found nan, expected a finite number");
+  EXPECT_THAT(complaint("[bin]\nlength = 1\nwidth = -1\n" + smallest),
+              HasSubstr("r.toml:3: bin.width: found -1"));
+  EXPECT_THAT(complaint("[scanner]\nwidth = 0\n" + smallest), HasSubstr("r.toml:2: scanner.width: found 0"));
+  EXPECT_THAT(complaint("[scanner]\nwidth = -2147483648\n" + smallest),
+              HasSubstr("r.toml:2: scanner.width: found"));
+  EXPECT_EQ(complaint("[scanner]\nhfov_deg = 180\n" + smallest),
+            "r.toml:2: scanner.hfov_deg: found 180, expected an angle between 0 and 180");
+  EXPECT_EQ(complaint("[scanner]\nfocal_length_px = -5\n" + smallest),
+            "r.toml:2: scanner.focal_length_px: found -5, expected a positive number of pixels");
+  EXPECT_EQ(complaint("[scanner]\nrotation_wxyz = [0, 0, 0, 0]\n" + smallest),
+            "r.toml:2: scanner.rotation_wxyz: found a quaternion of norm 0, expected a unit quaternion");
+  EXPECT_THAT(complaint("[scanner]\nrotation_matrix = [[1, 0, 0], [0, 1, 0], [0, 0, -1]]\n" + smallest),
+              HasSubstr("r.toml:1: scanner."))
+      << "a mirror image is no rotation";
+  EXPECT_THAT(complaint("[settle]\nerp = 0.2\nstep = -1\n" + smallest),
+              HasSubstr("r.toml:3: settle.step: found -1"));
+}
+
+TEST(RecipeErrors, NameTheTubeThatCannotBeDrawn) {
+  EXPECT_EQ(complaint_after("radius = 0.0125", "radius = -1"),
+            "r.toml:5: set[0].tube.radius: found -1, expected a positive number");
+  EXPECT_EQ(complaint_after("bend_max_deg = 30", "bend_max_deg = 181"),
+            "r.toml:8: set[0].tube.bend_max: found 181°, expected an angle from 0 to 180°");
+  EXPECT_EQ(complaint_after("bend_max_deg = 30", "bend_max_deg = 30\nbend_min_deg = 45"),
+            "r.toml:9: set[0].tube.bend_min: found 45°, expected at most bend_max, 30°");
+  EXPECT_EQ(
+      complaint_after("cylinders_max = 5", "cylinders_max = 6", tree),
+      "r.toml:17: set[0].tube.segment[1].cylinders_max: found 6 cylinders of at least 0.02 m, which make "
+      "0.12 m, expected no more than the length, 0.1 m");
+  EXPECT_EQ(complaint_after("from = 1\nto = 3", "from = 4\nto = 3", tree),
+            "r.toml:13: set[0].tube.segment[1].from: found node 4, expected node 1 or the end of an earlier "
+            "segment");
+}
+
+TEST(RecipeErrors, NameASetWithoutCases) {
+  EXPECT_EQ(complaint_after("[1, 10]", "[]"),
+            "r.toml:3: set[0].tubes: found none, expected at least one number of tubes");
+  EXPECT_EQ(complaint_after("[1, 10]", "[0]"),
+            "r.toml:3: set[0].tubes: found 0, expected numbers of tubes from 1 to 1000");
+  EXPECT_EQ(complaint_after("[1, 10]", "[1001]"),
+            "r.toml:3: set[0].tubes: found 1001, expected numbers of tubes from 1 to 1000");
+  EXPECT_EQ(complaint_after("[1, 10]", "[1, 2, 1]"),
+            "r.toml:3: set[0].tubes: found 1 a second time, expected numbers that differ");
+  EXPECT_EQ(complaint_after("[1, 10]", "[1]\ncases = 0"),
+            "r.toml:4: set[0].cases: found 0, expected at least 1");
+}
+
+TEST(RecipeErrors, CountTheCasesBeforeTheyFillTheMemory) {
+  EXPECT_EQ(
+      complaint_after("[1, 10]", "[1, 10]\ncases = 2000000000"),
+      "r.toml:4: set[0].cases: found 4000000000 cases up to here, expected at most 1000000 in a recipe");
+}
+
+TEST(RecipeErrors, NameASetThatIsNoFolder) {
+  const std::string expected = ", expected 1 to 64 letters, digits, '-' and '_'";
+  EXPECT_EQ(complaint_after("\"A\"", "\"\""), "r.toml:2: set[0].name: found ''" + expected);
+  EXPECT_EQ(complaint_after("\"A\"", "\"../A\""), "r.toml:2: set[0].name: found '../A'" + expected);
+  EXPECT_EQ(complaint_after("\"A\"", "\"a b\""), "r.toml:2: set[0].name: found 'a b'" + expected);
+  EXPECT_EQ(complaint_after("\"A\"", "\"Ä\""), "r.toml:2: set[0].name: found '\?\?'" + expected);
+  EXPECT_THAT(complaint_after("\"A\"", "\"" + std::string(65, 'x') + "\""), HasSubstr(expected));
+}
+
+TEST(RecipeErrors, NameSetsThatShareAFolder) {
+  EXPECT_EQ(complaint(smallest + smallest),
+            "r.toml:10: set[1].name: found 'A' a second time, expected names that differ");
+  const auto with = [](const std::string& set) { return set + smallest.substr(smallest.find("[set.tube]")); };
+  EXPECT_EQ(
+      complaint(with("[[set]]\nname = \"A\"\ntubes = [1, 11]\n") +
+                with("[[set]]\nname = \"A1\"\ntubes = [1]\n")),
+      "r.toml:11: set[1].tubes: found 1, whose folder A11 is also that of set 'A', expected a folder for "
+      "each");
+}
+
+TEST(RecipeErrors, NameKeysThatContradictEachOther) {
+  EXPECT_EQ(complaint("[scanner]\nhfov_deg = 60\nfocal_length_px = 2000\n" + smallest),
+            "r.toml:3: scanner.focal_length_px: cannot stand beside hfov_deg");
+  EXPECT_EQ(complaint("[scanner]\nfx = 2000\nhfov_deg = 60\nfy = 2000\n" + smallest),
+            "r.toml:2: scanner.fx: cannot stand beside hfov_deg");
+  EXPECT_EQ(complaint("[scanner]\nfx = 2000\n" + smallest), "r.toml:1: scanner.fy: is missing");
+  EXPECT_EQ(complaint("[scanner]\nrotation_wxyz = [1, 0, 0, 0]\nrotation_matrix = []\n" + smallest),
+            "r.toml:3: scanner.rotation_matrix: cannot stand beside rotation_wxyz");
+  EXPECT_EQ(complaint_after("mass = 0.75", "mass = 0.75\nlength = 1", tree),
+            "r.toml:7: set[0].tube.length: cannot stand beside segment");
+}
+
+TEST(RecipeErrors, NameAnUnknownPreset) {
+  EXPECT_THAT(complaint("[bin]\npreset = \"big\"\n" + smallest), HasSubstr("r.toml:2: bin"));
+  EXPECT_THAT(complaint("[scanner]\npreset = \"big\"\n" + smallest), HasSubstr("r.toml:2: scanner"));
+}
+
+TEST(RecipeErrors, NameABinSmallerThanATube) {
+  EXPECT_EQ(
+      complaint("[bin]\nlength = 0.3\nwidth = 0.2\nheight = 0.1\n" + smallest),
+      "r.toml:11: set[0].tube.length: found a straight piece of up to 0.42 m, expected one that fits in "
+      "the bin, whose diagonal has room for 0.334477 m");
+  EXPECT_EQ(complaint_after("radius = 0.0125", "radius = 0.2"),
+            "r.toml:5: set[0].tube.radius: found tubes 0.4 m thick, expected ones that fit between the bin's "
+            "walls, which are 0.37 m apart");
+  EXPECT_THAT(complaint_after("bend_max_deg = 30", "bend_max_deg = 0"), "none");
+  EXPECT_EQ(complaint_after("length = 0.5\nbend_max_deg = 30", "length = 0.7\nbend_max_deg = 0"),
+            "r.toml:7: set[0].tube.length: found a straight piece of up to 0.7 m, expected one that fits in "
+            "the bin, whose diagonal has room for 0.652131 m");
+}
+
+TEST(RecipeErrors, AreFoundAfterAChangeToo) {
+  Recipe recipe = read(smallest);
+  EXPECT_NO_THROW(validate(recipe));
+  recipe.seed = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_THROW(validate(recipe), InputError) << "no TOML file can hold that seed";
+  recipe.seed = 1;
+  recipe.sets.clear();
+  EXPECT_THROW(validate(recipe), InputError);
+}
+
+}  // namespace
+}  // namespace tanglebin
