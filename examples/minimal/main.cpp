@@ -1,4 +1,4 @@
-// Draws three tubes, holds them in the paper's bin and scans them.
+// Draws three tubes, places them in the paper's bin and scans them.
 #include <iostream>
 #include <numbers>
 #include <vector>
