@@ -18,7 +18,7 @@ set(public_headers
   simulate/simulate simulate/world_sdf
   model/model_tubes model/parameters model/axis/axis_settings model/paper/paper_settings model/scene/known_scene model/scene/model model/scene/segment_tree
   model/scene/shared_settings
-  score/score score/score_clouds score/score_tubes)
+  score/confusion score/metrics score/score score/score_clouds score/score_tubes)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/tanglebin/${header}.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tanglebin/${room})
