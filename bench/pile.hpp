@@ -30,10 +30,8 @@ inline Tube chain(Rng& rng, const Bin& bin, int id) {
     if (std::abs(next.y()) > bin.width / 2) next.y() = position.y() - length * direction.y();
     if (next.z() < tube.radius) next.z() = position.z() - length * direction.z();
     heading = std::atan2(next.y() - position.y(), next.x() - position.x());
-    tube.edges.push_back({tube.nodes.size() - 1, tube.nodes.size(), i, (position + next) / 2,
-                          Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), next - position),
-                          length});
     tube.nodes.push_back({i + 1, next});
+    tube.edges.push_back(edge_between(tube, tube.nodes.size() - 2, tube.nodes.size() - 1, i));
     position = next;
   }
   return tube;

@@ -21,22 +21,6 @@ Eigen::Vector3d direction(double polar, double azimuth) {
   return {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)};
 }
 
-// The shortest rotation that turns +z onto d: by acos(z · d) about z × d. The arc tangent keeps its digits
-// where d is nearly parallel to z; where it is quite parallel, any axis across z will do.
-Eigen::Quaterniond rotation_from_z(const Eigen::Vector3d& d) {
-  const Eigen::Vector3d axis = Eigen::Vector3d::UnitZ().cross(d);
-  const double sine = axis.norm();
-  const double angle = std::atan2(sine, d.z());
-  return Eigen::Quaterniond(
-      Eigen::AngleAxisd(angle, sine > 0 ? Eigen::Vector3d(axis / sine) : Eigen::Vector3d::UnitX()));
-}
-
-Edge edge_between(const Tube& tube, std::size_t from, std::size_t to, int order) {
-  const Eigen::Vector3d& a = tube.nodes[from].position;
-  const Eigen::Vector3d& b = tube.nodes[to].position;
-  return {from, to, order, (a + b) / 2, rotation_from_z((b - a).normalized()), (b - a).norm()};
-}
-
 std::size_t index_of_node(const Tube& tube, int id) {
   const auto node = std::ranges::find(tube.nodes, id, &Node::id);
   return static_cast<std::size_t>(std::distance(tube.nodes.begin(), node));

@@ -12,6 +12,22 @@ double to_billionth(double value) {
 
 }  // namespace
 
+// By acos(z · d) about z × d. The arc tangent keeps its digits where d is nearly parallel to z; where it is
+// exactly parallel, any axis across z will do.
+Eigen::Quaterniond rotation_from_z(const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d axis = Eigen::Vector3d::UnitZ().cross(direction);
+  const double sine = axis.norm();
+  const double angle = std::atan2(sine, direction.z());
+  return Eigen::Quaterniond(
+      Eigen::AngleAxisd(angle, sine > 0 ? Eigen::Vector3d(axis / sine) : Eigen::Vector3d::UnitX()));
+}
+
+Edge edge_between(const Tube& tube, std::size_t from, std::size_t to, int order) {
+  const Eigen::Vector3d& a = tube.nodes[from].position;
+  const Eigen::Vector3d& b = tube.nodes[to].position;
+  return {from, to, order, (a + b) / 2, rotation_from_z((b - a).normalized()), (b - a).norm()};
+}
+
 Capsule capsule(const Tube& tube, const Edge& edge) {
   return {tube.nodes[edge.from].position, tube.nodes[edge.to].position, tube.radius};
 }

@@ -24,6 +24,9 @@ struct Edge {
   double length;                ///< m
 };
 
+/// The shortest rotation that turns +z onto a unit vector; about x by π for −z.
+Eigen::Quaterniond rotation_from_z(const Eigen::Vector3d& direction);
+
 /// A tube is a tree of nodes (spheres) and edges (cylinders) of one radius, so its surface is that of a union
 /// of capsules (paper, Section 3, with a sphere at every node as in the published data).
 struct Tube {
@@ -33,6 +36,9 @@ struct Tube {
   std::vector<Node> nodes;
   std::vector<Edge> edges;
 };
+
+/// The edge between two nodes of a tube.
+Edge edge_between(const Tube& tube, std::size_t from, std::size_t to, int order);
 
 /// The capsule of one edge.
 Capsule capsule(const Tube& tube, const Edge& edge);

@@ -37,9 +37,7 @@ std::vector<Tube> tubes(int count) {
     tube.radius = 0.0125;
     const double y = 0.1 * id;
     tube.nodes = {{1, {0, y, 0}}, {2, {0.5, y, 0}}};
-    const Eigen::Quaterniond along_x =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX());
-    tube.edges = {{0, 1, 1, {0.25, y, 0}, along_x, 0.5}};
+    tube.edges = {edge_between(tube, 0, 1, 1)};
   }
   return result;
 }

@@ -17,11 +17,8 @@ inline double radians(double degrees) {
 }
 
 inline void connect(Tube& tube, std::size_t from, std::size_t to) {
-  const Eigen::Vector3d& a = tube.nodes[from].position;
-  const Eigen::Vector3d& b = tube.nodes[to].position;
   const int order = static_cast<int>(tube.edges.size()) + 1;
-  tube.edges.push_back({from, to, order, (a + b) / 2,
-                        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), b - a), (b - a).norm()});
+  tube.edges.push_back(edge_between(tube, from, to, order));
 }
 
 /// A tube of radius 12.5 mm and 0.5 kg whose centre line runs straight from point to point.

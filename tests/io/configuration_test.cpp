@@ -194,12 +194,8 @@ Tube any_tube(int id) {
     tube.nodes.push_back({node, {any_real(-3, 3), any_real(-3, 3), any_real(-3, 3)}});
   for (std::size_t to = 1; to < tube.nodes.size(); ++to) {
     const std::size_t from = *rc::gen::inRange<std::size_t>(0, to);
-    const Eigen::Vector3d a = tube.nodes[from].position;
-    const Eigen::Vector3d b = tube.nodes[to].position;
-    RC_PRE((b - a).norm() > 0);
-    tube.edges.push_back({from, to, static_cast<int>(to), (a + b) / 2,
-                          Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), b - a),
-                          (b - a).norm()});
+    RC_PRE(tube.nodes[from].position != tube.nodes[to].position);
+    tube.edges.push_back(edge_between(tube, from, to, static_cast<int>(to)));
   }
   return tube;
 }

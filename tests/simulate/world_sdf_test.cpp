@@ -56,12 +56,11 @@ std::vector<Tube> draw_tubes(const TubeSpec& spec, int count) {
 
 /// A tube of one cylinder between two points.
 Tube straight_tube(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  const Eigen::Quaterniond rotation = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), to - from);
   Tube tube;
   tube.radius = 0.0125;
   tube.mass = 0.5;
   tube.nodes = {{1, from}, {2, to}};
-  tube.edges = {{0, 1, 1, (from + to) / 2, rotation, (to - from).norm()}};
+  tube.edges = {edge_between(tube, 0, 1, 1)};
   return tube;
 }
 

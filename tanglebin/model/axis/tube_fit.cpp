@@ -150,12 +150,9 @@ Tube tube_of(const LineTree& line, double radius) {
     tube.nodes.push_back({number <= named ? number : number + gap - 1, line.nodes[node]});
   }
   for (const auto& [from, to] : line.edges) {
-    const Vector3d& a = line.nodes[from];
-    const Vector3d& b = line.nodes[to];
     const bool starts_segment = static_cast<std::ptrdiff_t>(from) < named;
     const int order = starts_segment ? 1 : tube.edges.back().order + 1;
-    tube.edges.push_back({from, to, order, (a + b) / 2,
-                          Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), b - a), (b - a).norm()});
+    tube.edges.push_back(edge_between(tube, from, to, order));
   }
   return tube;
 }

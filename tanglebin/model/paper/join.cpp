@@ -89,17 +89,12 @@ CylinderEnd start_of_chain(const Neighbours& neighbours, std::size_t cylinder) {
 constexpr double same_place = 1e-6;
 
 void extend(Tube& tube, const Eigen::Vector3d& to) {
-  if (!tube.nodes.empty()) {
-    const Eigen::Vector3d from = tube.nodes.back().position;
-    const double length = (to - from).norm();
-    if (length < same_place) return;
-    const std::size_t last = tube.nodes.size() - 1;
-    tube.edges.push_back({last, last + 1, static_cast<int>(tube.edges.size()) + 1, (from + to) / 2,
-                          Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), to - from), length});
-  }
+  if (!tube.nodes.empty() && (to - tube.nodes.back().position).norm() < same_place) return;
   // Ends are nodes 1 and 2, inner nodes count from 4, as in the published data.
   constexpr int inner_offset = 3;
-  tube.nodes.push_back({static_cast<int>(tube.nodes.size()) + inner_offset, to});
+  const std::size_t added = tube.nodes.size();
+  tube.nodes.push_back({static_cast<int>(added) + inner_offset, to});
+  if (added > 0) tube.edges.push_back(edge_between(tube, added - 1, added, static_cast<int>(added)));
 }
 
 }  // namespace

@@ -39,9 +39,7 @@ Tube star(const std::vector<Vector3d>& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     tube.nodes.push_back({static_cast<int>(i) + 1, nodes[i]});
     if (i == 0) continue;
-    const Vector3d arm = nodes[i] - nodes[0];
-    tube.edges.push_back({0, i, 1, (nodes[0] + nodes[i]) / 2,
-                          Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), arm), arm.norm()});
+    tube.edges.push_back(edge_between(tube, 0, i, 1));
   }
   return tube;
 }
