@@ -30,7 +30,7 @@ Method method_named(const std::string& name);
 struct ModelSettings {
   Method method = Method::axis;
   double ratio = 1;        ///< downsampling ratio, 0 < ratio ≤ 1; the points are drawn at random
-  std::uint64_t seed = 0;  ///< of the downsampling and of the method's own random choices
+  std::uint64_t seed = 0;  ///< of the downsampling
   AxisSettings axis{};
   PaperSettings paper{};
 };

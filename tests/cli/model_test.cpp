@@ -174,7 +174,7 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
       {model("scan.ply", "--radius 0.01,0.02,0.03 --length 0.4,0.5"),
        "--length: found 2 lengths, expected one, or one for each radius: 3"},
       {model("scan.ply", "--tree 1-2:0.3,1-3"),
-       "--tree: found '1-3', expected a segment and its length, m, such as 1-2:0.3"},
+       "--tree: found '1-3', expected a segment with its length in metres, such as 1-2:0.3"},
       {model("scan.ply", "--tree 1-2:0.3,2-1:0.1"), "--tree: found a segment to node 1, which closes a loop"},
       {model("scan.ply", "--tree 1-2:0.3 --tree 1-2:0.4"),
        "--tree: found 2 trees, expected one, or one for each radius: 1"},
