@@ -10,8 +10,7 @@ namespace tanglebin {
 struct Summary {
   std::size_t count = 0;
   double mean = 0;
-  std::optional<double>
-      standard_deviation;  ///< estimated for the population (n − 1); none for a single number
+  std::optional<double> standard_deviation;  ///< estimated with n − 1; none for a single number
   double least = 0;
   double first_quartile = 0;  ///< quartiles interpolate between neighbours (Hyndman and Fan 1996, type 7)
   double median = 0;

@@ -24,12 +24,11 @@ double adjusted_rand_index(const Confusion& confusion);
 /// Classification of the tubes and segments (Hoover et al. 1996), where "most" means more than half. A tube
 /// or segment counts in at most one instance, the best fitting one.
 struct Instances {
-  std::size_t correct = 0;         ///< a tube and a segment that share most of each other
-  std::size_t over_segmented = 0;  ///< a tube covered mostly by two or more segments, each mostly on it
-  std::size_t under_segmented =
-      0;                   ///< a segment mostly on two or more tubes, of each of which it covers most
-  std::size_t missed = 0;  ///< a tube in none of these
-  std::size_t noise = 0;   ///< a segment in none of these
+  std::size_t correct = 0;          ///< a tube and a segment that share most of each other
+  std::size_t over_segmented = 0;   ///< a tube covered mostly by two or more segments, each mostly on it
+  std::size_t under_segmented = 0;  ///< a segment mostly on several tubes, of each of which it covers most
+  std::size_t missed = 0;           ///< a tube in none of these
+  std::size_t noise = 0;            ///< a segment in none of these
 };
 Instances count_instances(const Confusion& confusion);
 

@@ -26,8 +26,8 @@ private:
   };
 
   double diameter_;
-  std::unordered_map<std::uint64_t, std::vector<Node>>
-      around_;  // by cell (a diameter wide): nodes in it and in the cells around it
+  // For each cell, a diameter wide: the nodes in it and in the cells around it.
+  std::unordered_map<std::uint64_t, std::vector<Node>> around_;
 };
 
 }  // namespace tanglebin

@@ -10,8 +10,7 @@ namespace tanglebin {
 struct Skeleton {
   std::vector<std::size_t> points;     ///< indices of the set's points, ascending
   std::vector<Eigen::Vector3d> nodes;  ///< m; the first is at one end of the longest path through the set
-  std::vector<std::size_t>
-      parents;  ///< for each node, an earlier one that it is connected to; 0 for the first
+  std::vector<std::size_t> parents;    ///< for each node, a connected earlier one; 0 for the first
 };
 
 /// Finds connected thin sets of points (m; NaN points are in none). Points in touching voxels of size `voxel`

@@ -22,9 +22,8 @@ struct TubeKind {
 /// What is known about a scene in advance.
 struct KnownScene {
   Bin bin;
-  Camera camera;  ///< the camera that took the cloud
-  std::vector<TubeKind> kinds =
-      std::vector<TubeKind>(1);  ///< the kinds of tubes; no two have the same radius
+  Camera camera;                                           ///< the camera that took the cloud
+  std::vector<TubeKind> kinds = std::vector<TubeKind>(1);  ///< no two with the same radius
 };
 
 /// Throws InputError naming the invalid field: bin or camera; no kinds; a radius that is not a finite

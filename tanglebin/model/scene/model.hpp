@@ -19,11 +19,10 @@ struct Step {
 
 /// The tubes found in a cloud.
 struct Model {
-  std::vector<Tube> tubes;           ///< ids 1, 2, …; mass 0 (unknown)
-  std::vector<std::int32_t> labels;  ///< for each point of the cloud: a tube's id, bin_label or null_label
-  std::vector<std::size_t>
-      filtered;  ///< indices, ascending, of the points that the filter kept; Section 5 scores their labels
-  std::vector<Step> steps;  ///< in the order in which they ran
+  std::vector<Tube> tubes;            ///< ids 1, 2, …; mass 0 (unknown)
+  std::vector<std::int32_t> labels;   ///< for each point of the cloud: a tube's id, bin_label or null_label
+  std::vector<std::size_t> filtered;  ///< points that the filter kept, ascending; Section 5 scores these
+  std::vector<Step> steps;            ///< in the order in which they ran
 };
 
 }  // namespace tanglebin

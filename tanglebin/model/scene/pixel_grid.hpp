@@ -54,8 +54,7 @@ private:
   std::vector<float> z_;
   std::vector<std::uint32_t> indices_;
   std::vector<PixelPosition> pixels_;
-  std::vector<std::uint32_t>
-      starts_;  // where each pixel's points begin; the last entry is the number of points
+  std::vector<std::uint32_t> starts_;  // first point of each pixel; last entry: the number of points
 };
 
 }  // namespace tanglebin
