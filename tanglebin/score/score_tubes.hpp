@@ -16,10 +16,9 @@ struct TubesScore {
   std::optional<double> centre_line_error_p95;  ///< m, the 95th percentile of the same
   double centre_line_coverage;  ///< fraction of the true length within a radius of a modelled centre line
   std::int64_t complete_tubes;  ///< true tubes that a single modelled tube covers almost from end to end
-  std::optional<double>
-      length_error;             ///< for these, median relative error of the length; none if there are none
-  std::int64_t true_joins;      ///< pairs of neighbouring pieces on a true tube
-  std::int64_t joins_found;     ///< those of them that a modelled tube joins
+  std::optional<double> length_error;  ///< median relative length error of these; none if there are none
+  std::int64_t true_joins;             ///< pairs of neighbouring pieces on a true tube
+  std::int64_t joins_found;            ///< those of them that a modelled tube joins
   std::int64_t joins_made;      ///< pairs that a modelled tube joins; those that are not true joins are wrong
   std::int64_t true_junctions;  ///< nodes of the true tubes where three or more edges meet
   std::int64_t junctions_found;  ///< those of them with a modelled junction within a diameter
