@@ -1,7 +1,7 @@
-// The paper's dataset, recipes/paper.toml, as `tanglebin generate` makes it: wall time, the share of each
-// stage in what the workers did, and how busy the processors were. The sum of the paper's Table 1 times 20
-// scenes is 7,799 s. The same part of it with one worker and with two tells what the second worker gains.
-//   build/bench_dataset --benchmark_filter='jobs:2/cases:20'
+// Generates the paper's dataset, recipes/paper.toml, like `tanglebin generate`. Reports the wall-clock time,
+// each stage's share of the workers' time, and the load of the processors. The sum of the paper's Table 1
+// times 20 scenes is 7,799 s. To see the gain from a second worker, run the same part with one and with two:
+// build/bench_dataset --benchmark_filter='jobs:2/cases:20'
 
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
@@ -32,7 +32,7 @@ double processor_seconds_of_workers() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// What a processor has done since the machine started, in ticks (proc(5)).
+/// A processor's activity since the machine started, in ticks (proc(5)).
 struct Ticks {
   double busy = 0;
   double all = 0;
@@ -45,13 +45,13 @@ std::vector<Ticks> processors() {
   while (stat >> name && name.starts_with("cpu")) {
     Ticks ticks;
     constexpr int columns = 10;
-    constexpr int user_steal_end = 8;  // guest time is in user time already
+    constexpr int user_steal_end = 8;  // user time already includes guest time
     for (int column = 0; column < columns; ++column) {
       double value = 0;
       stat >> value;
       if (column >= user_steal_end) continue;
       ticks.all += value;
-      if (column != 3 && column != 4) ticks.busy += value;  // idle, waiting for the disk
+      if (column != 3 && column != 4) ticks.busy += value;  // idle, and waiting for the disk
     }
     if (name != "cpu") result.push_back(ticks);
   }

@@ -1,5 +1,5 @@
-// What a case costs, from the recipe to files on the disk, and each stage's share. For comparison, the
-// paper's Table 1 (set A, i7-8750H): 3.13 s, 8.25 s, 14.20 s and 28.10 s for 1, 5, 10 and 20 tubes.
+// The cost of a case, from the recipe to files on disk, with each stage's share. For comparison, the paper's
+// Table 1 (set A, i7-8750H): 3.13 s, 8.25 s, 14.20 s and 28.10 s for 1, 5, 10 and 20 tubes.
 
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int cases_timed = 20;  // of which the median is the figure
+constexpr int cases_timed = 20;  // the result is their median
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();

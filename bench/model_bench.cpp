@@ -1,7 +1,7 @@
-// What each step of modelling costs, on one core, by each method: set A in the paper's bin by number of tubes
-// and downsampling ratio (percent), and many tubes in the published bin. paper_s is the paper's Table 2
-// (i7-8750H), of_paper our whole time as a share of it; times_faster is how many times as long the paper's
-// method takes for the same clouds in the same run.
+// The cost of each step of modelling, on one core, for each method: set A in the paper's bin by number of
+// tubes and downsampling ratio (percent), and many tubes in the published bin. paper_s is from the paper's
+// Table 2 (i7-8750H), of_paper is our total time as a fraction of it, and times_faster is the time of the
+// paper's method for the same clouds in the same run, divided by ours.
 
 #include <benchmark/benchmark.h>
 
@@ -22,13 +22,13 @@ namespace {
 
 constexpr int cases_timed = 10;
 
-/// What a method is timed on.
+/// The scans to model.
 struct Scans {
   KnownScene known;
   std::vector<PointCloud> clouds;
 };
 
-// Made once, when they are first asked for.
+// Made on first use.
 const Scans& scans_of(const std::string& bin, int tubes) {
   static std::map<std::pair<std::string, int>, Scans> made;
   const auto [entry, is_new] = made.try_emplace({bin, tubes});
@@ -44,7 +44,7 @@ const Scans& scans_of(const std::string& bin, int tubes) {
   return scans;
 }
 
-/// Mean seconds of a cloud, by step.
+/// Mean seconds per cloud, by step.
 using StepSeconds = std::map<std::string, double>;
 
 StepSeconds step_seconds(const Scans& scans, Method method, double ratio) {

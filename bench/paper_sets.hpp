@@ -7,7 +7,7 @@
 
 namespace tanglebin {
 
-/// The paper's set A (bends up to 30°) or B (up to 45°), in its bin, before its scanner.
+/// The paper's set A (bends up to 30°) or B (up to 45°), with its bin and scanner.
 inline Recipe paper_set(const std::string& name, double bend_max_deg) {
   Recipe recipe;
   recipe.seed = 2022;

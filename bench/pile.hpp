@@ -10,8 +10,7 @@
 
 namespace tanglebin {
 
-/// A bent chain of capsules through the bin, a stand-in for a tube at rest: seven cylinders that climb
-/// little.
+/// A bent chain of seven nearly level capsules through the bin, as a stand-in for a tube at rest.
 inline Tube chain(Rng& rng, const Bin& bin, int id) {
   constexpr int cylinders = 7;
   constexpr double length = 0.5 / cylinders;

@@ -14,7 +14,7 @@ namespace {
 
 using namespace tanglebin;
 
-/// tanglebin::scan() as a user calls it: everything from the building of the index to the last pixel.
+/// tanglebin::scan() as users call it, from building the index to the last pixel.
 void exact_scan(benchmark::State& state, const char* camera_name) {
   const Bin bin;
   const auto tubes = pile(static_cast<int>(state.range(0)), bin);
@@ -28,8 +28,8 @@ void exact_scan(benchmark::State& state, const char* camera_name) {
   state.counters["pixels"] = static_cast<double>(pixels);
 }
 
-/// The reference: the same pixels, what Embree gives in single precision and no more. Tubes as chains with
-/// neighbours, the bin as triangles, distance and primitive kept.
+/// The reference: the same pixels with Embree in single precision only. Tubes are chains with neighbours, the
+/// bin is made of triangles; keeps distance and primitive.
 class PlainScene {
 public:
   PlainScene(const std::vector<Tube>& tubes, const Bin& bin) {

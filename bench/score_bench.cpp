@@ -16,7 +16,7 @@ namespace {
 
 using namespace tanglebin;
 
-/// Every tube overlaps every label: far denser than a cloud's.
+/// Every tube overlaps every label, which is far denser than in a real cloud.
 Confusion dense_confusion(int tubes, int segments) {
   Rng rng(5);
   Confusion confusion;
@@ -37,7 +37,7 @@ void assignment(benchmark::State& state) {
 }
 BENCHMARK(assignment)->Args({20, 40})->Args({200, 400})->Unit(benchmark::kMillisecond);
 
-/// Points on 20 tubes, one after the other, as a camera might see them.
+/// Points on 20 tubes, one after the other, roughly as a camera sees them.
 PointCloud truth_cloud(std::size_t points) {
   Rng rng(6);
   PointCloud cloud;
@@ -87,7 +87,7 @@ void labels(benchmark::State& state) {
 }
 BENCHMARK(labels)->Arg(300'000)->Unit(benchmark::kMillisecond);
 
-/// Chains of 0.5 m, as close together as in a bin.
+/// Chains of 0.5 m, as densely packed as in a bin.
 std::vector<Tube> true_tubes(int count) {
   Rng rng(9);
   std::vector<Tube> tubes;
@@ -100,7 +100,7 @@ std::vector<Tube> true_tubes(int count) {
   return tubes;
 }
 
-/// The same chains with each edge cut into ten, a little off.
+/// The same chains with each edge cut into ten, slightly displaced.
 std::vector<Tube> modelled_tubes(const std::vector<Tube>& truth) {
   Rng rng(10);
   const auto off = [&] { return uniform_real(rng, -0.002, 0.002); };

@@ -10,7 +10,7 @@ namespace {
 
 using namespace tanglebin;
 
-/// Twenty tubes before the Zivid's camera, as a user scans them.
+/// Twenty tubes in front of the Zivid's camera.
 class Scene {
 public:
   Scan scan_by(const Sensor& sensor) const { return scan(tubes_, bin_, camera_, sensor, 1); }
@@ -21,7 +21,7 @@ private:
   Camera camera_ = camera_preset("zivid-one-plus-l");
 };
 
-/// Of processor time, the mean of some scans.
+/// Mean processor time of several scans.
 double clocks_of_ideal_scan(const Scene& scene) {
   constexpr int scans = 10;
   const std::clock_t start = std::clock();

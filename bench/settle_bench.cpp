@@ -15,9 +15,9 @@ namespace {
 
 using namespace tanglebin;
 
-constexpr double set_a = std::numbers::pi / 6;  // rad, the greatest bend
+constexpr double set_a = std::numbers::pi / 6;  // rad, largest bend
 constexpr double set_b = std::numbers::pi / 4;
-constexpr int heaps = 8;  // a benchmark settles those of the seeds 1 to 8, one in each iteration
+constexpr int heaps = 8;  // a benchmark settles the heaps of seeds 1 to 8, one per iteration
 
 std::vector<Tube> drawn_tubes(Rng& rng, int count, double bend_max) {
   TubeSpec spec;
@@ -27,7 +27,7 @@ std::vector<Tube> drawn_tubes(Rng& rng, int count, double bend_max) {
   return tubes;
 }
 
-/// One attempt at a heap as a data set is made of, valid or not. Arguments: tubes.
+/// One attempt at a heap as in a dataset, valid or not. Arguments: tubes.
 void settle_heap(benchmark::State& state, double bend_max, const char* bin_name) {
   const Bin bin = bin_preset(bin_name);
   const SettleSettings settings;

@@ -1,4 +1,4 @@
-// Any bytes are either a configuration, which then survives writing and reading, or an InputError.
+// Any input is either a configuration, which must survive writing and reading, or an InputError.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,11 +25,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     written = read_and_write(std::string(data, data + size));
   } catch (const tanglebin::InputError& error) {
-    // The program prints it on one line.
+    // Messages must fit on one line.
     if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
     return 0;
   }
-  // An exception from here on is a crash: what the project writes is refused.
+  // An exception from here on is a bug: the project cannot read what it writes.
   if (read_and_write(written) != written) std::abort();
   return 0;
 }

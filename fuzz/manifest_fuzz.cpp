@@ -1,5 +1,5 @@
-// Any bytes in place of a file that says what a dataset has are either cases or an InputError, and what was
-// read is written so that it reads back the same. The first byte chooses the file.
+// Any input in place of a file that lists a dataset's cases is either cases or an InputError, and whatever
+// was read is written so that it reads back the same. The first byte selects the file.
 
 #include <unistd.h>
 
@@ -27,7 +27,7 @@ constexpr const char* record =
     R"("points":7,"rejected":[],"files":[{"path":"A1/plys/1.ply","bytes":3,"sha256":"ab"}]})";
 
 fs::path fresh_directory() {
-  // In memory, where there is such a place: a harness writes thousands of files a second.
+  // In memory if possible, because a harness writes thousands of files per second.
   const fs::path shared = "/dev/shm";
   const fs::path parent = fs::is_directory(shared) ? shared : fs::temp_directory_path();
   const fs::path directory = parent / ("tanglebin-fuzz-manifest-" + std::to_string(getpid()));
@@ -66,7 +66,7 @@ void read_times_and_drawn_numbers(const tanglebin::Catalogue& catalogue) {
   }
 }
 
-// An InputError is an answer. The program prints it on one line.
+// An InputError is fine, but its message must fit on one line.
 template <typename Read>
 void in_one_line(const Read& read) {
   try {
@@ -86,12 +86,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::ofstream(directory / "manifest.jsonl") << record << '\n';
   std::ofstream(directory / files[data[0] % files.size()], std::ios::binary)
       << std::string(data + 1, data + size);
-  // Each reads the very bytes, whatever the others say of them.
+  // Each reads exactly these bytes, whatever the other files contain.
   in_one_line([&] { tanglebin::read_dataset_summary(directory); });
   in_one_line([&] { tanglebin::finished_cases(directory); });
   in_one_line([&] { read_times_and_drawn_numbers(tanglebin::Catalogue(directory)); });
   in_one_line([&] { check_that_it_reads_back(tanglebin::Catalogue(directory), directory); });
-  // What passes damage over writes a dataset.
+  // Readers that skip damage can still write a dataset.
   using Damage = tanglebin::Catalogue::Damage;
   check_that_it_reads_back(tanglebin::Catalogue(directory, Damage::is_passed_over), directory);
   fs::remove_all(directory);

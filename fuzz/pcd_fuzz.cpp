@@ -9,7 +9,7 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/io/pcd.hpp"
 
-// Any bytes are a cloud or an InputError, and a cloud that was read comes back the same from what is written.
+// Any input is a cloud or an InputError. A cloud must be the same after writing and reading.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::istringstream file(std::string(reinterpret_cast<const char*>(data), size));
   tanglebin::PointCloud cloud;
@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const tanglebin::PointCloud back = tanglebin::read_pcd(copy, "copy.pcd");
   const bool same_shape = back.width == cloud.width && back.height == cloud.height;
   const auto same_point = [](const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-    return std::memcmp(a.data(), b.data(), sizeof(a)) == 0;  // NaN too
+    return std::memcmp(a.data(), b.data(), sizeof(a)) == 0;  // also compares NaN
   };
   const bool same_points = std::ranges::equal(back.points, cloud.points, same_point);
   if (!same_shape || !same_points || back.labels != cloud.labels || back.colors != cloud.colors) std::abort();

@@ -7,7 +7,7 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/io/ply.hpp"
 
-// Any bytes are a cloud or an InputError, and a cloud that was read comes back the same from what is written.
+// Any input is a cloud or an InputError. A cloud must be the same after writing and reading.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::istringstream file(std::string(reinterpret_cast<const char*>(data), size));
   tanglebin::PointCloud cloud;

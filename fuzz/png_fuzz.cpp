@@ -1,4 +1,4 @@
-// Any bytes are a picture of the size that is expected or not; what is wrong with them is said on one line.
+// Any input is a picture of the expected size or an error with a message on one line.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include "tanglebin/dataset/verify_case.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  constexpr int width = 12;  // those of the seeds
+  constexpr int width = 12;  // size of the seeds
   constexpr int height = 8;
   const std::string fault = tanglebin::fault_of_png(std::string(data, data + size), width, height);
   if (fault.find_first_of("\n\t") != std::string::npos) std::abort();

@@ -1,5 +1,5 @@
-// Any bytes are either a recipe, which then survives writing and reading, or an InputError; and either a
-// setting of the command line or an InputError.
+// Any input is either a recipe, which must survive writing and reading, or an InputError; and either a
+// setting from the command line or an InputError.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,13 +22,13 @@ std::string read_and_write(const std::string& text) {
   return out.str();
 }
 
-/// Calls `call`; returns whether it threw an InputError.
+/// Calls `call` and returns true if it threw an InputError.
 template <typename Call>
 bool is_refused(Call call) {
   try {
     call();
   } catch (const tanglebin::InputError& error) {
-    // The program prints it on one line.
+    // Messages must fit on one line.
     if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
     return true;
   }
@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       [&] { tanglebin::scanner_with("paper", {"scanner." + text.substr(0, text.find('\n'))}, "fuzz"); });
   std::string written;
   if (is_refused([&] { written = read_and_write(text); })) return 0;
-  // An exception from here on is a crash: what the project writes is refused.
+  // An exception from here on is a bug: the project cannot read what it writes.
   if (read_and_write(written) != written) std::abort();
   return 0;
 }

@@ -1,5 +1,5 @@
-// Any bytes in place of a file of a results directory are either results or an InputError. The first byte
-// chooses the file.
+// Any input in place of a file of a results directory is either results or an InputError. The first byte
+// selects the file.
 
 #include <unistd.h>
 
@@ -39,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     tanglebin::read_results_directory(directory);
   } catch (const tanglebin::InputError& error) {
-    // The program prints it on one line.
+    // Messages must fit on one line.
     if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
   }
   fs::remove_all(directory);

@@ -1,4 +1,4 @@
-// Any bytes are an SDF world or not; what is wrong with them is said on one line.
+// Any input is an SDF world or an error with a message on one line.
 
 #include <cstddef>
 #include <cstdint>

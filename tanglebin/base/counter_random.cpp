@@ -15,7 +15,7 @@ double polynomial(const Coefficients& coefficients, double x) {
   return value;
 }
 
-/// One of the algorithm's three rational functions: numerator and denominator, constant terms first.
+/// One of the algorithm's three rational functions. Coefficients start with the constant term.
 struct Rational {
   Coefficients above;
   Coefficients below;

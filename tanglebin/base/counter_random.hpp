@@ -11,13 +11,13 @@ constexpr std::uint64_t mix_bits(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// The number below which a standard normal variable lies with probability p, 0 < p < 1. Wichura's AS 241
-/// (1988), relative error about 1e-16.
+/// The p-quantile of the standard normal distribution, 0 < p < 1. Wichura's AS 241 (1988); relative error
+/// about 1e-16.
 double normal_quantile(double p);
 
-/// Random numbers that are looked up by a counter instead of drawn one after the other: number i of a stream
-/// is SplitMix64's i-th output, so that it depends neither on which others were asked for nor on the order.
-/// Streams of different seeds or terms are unrelated.
+/// Random numbers looked up by a counter. Number i of a stream is SplitMix64's i-th output, so it does not
+/// depend on which other numbers are requested, or in which order. Streams with different seeds or terms are
+/// unrelated.
 class CounterRandom {
 public:
   CounterRandom(std::uint64_t seed, std::uint64_t term)
@@ -25,7 +25,7 @@ public:
 
   std::uint64_t bits(std::uint64_t counter) const { return mix_bits(key_ + golden * (counter + 1)); }
 
-  /// Uniform in (0, 1), neither end in it.
+  /// Uniform in (0, 1), both ends excluded.
   double uniform(std::uint64_t counter) const {
     return (static_cast<double>(bits(counter) >> 11) + 0.5) * 0x1p-53;
   }

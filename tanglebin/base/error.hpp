@@ -6,15 +6,15 @@
 
 namespace tanglebin {
 
-/// Where in the input something was found. An empty or zero member is not printed.
+/// A place in the input. Empty or zero members are not printed.
 struct InputPlace {
   std::string file{};    ///< path as the user gave it
-  std::size_t line = 0;  ///< 1-based; 0 where the input has no lines (binary data, command line)
-  std::string field{};   ///< name of the value: a key, a column, a property
+  std::size_t line = 0;  ///< 1-based; 0 if the input has no lines (binary data, command line)
+  std::string field{};   ///< name of the value: a key, a column or a property
 };
 
-/// Bad input: a file, a recipe or a parameter. The program prints what() on one line and exits 2.
-/// what() reads "file:line: field: problem", problem being "found …, expected …" or a plain sentence.
+/// Bad input: a file, a recipe or a parameter. The program prints what() on one line and exits with 2. what()
+/// reads "file:line: field: problem", where the problem is "found …, expected …" or a plain sentence.
 class InputError : public std::runtime_error {
 public:
   InputError(const InputPlace& place, const std::string& problem);
@@ -30,7 +30,7 @@ private:
   std::string problem_;
 };
 
-/// Calls `call`; an InputError that names no file gets this one.
+/// Calls `call`, and adds this file to an InputError that names none.
 template <typename Call>
 auto with_file(const std::string& file, Call call) {
   try {

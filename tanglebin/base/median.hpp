@@ -6,7 +6,7 @@
 
 namespace tanglebin {
 
-/// The middle one of some values, of which there is one at least; of an even number the greater of the two.
+/// The median of at least one value; of an even number, the greater of the two in the middle.
 template <typename Value>
 Value median(std::vector<Value> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -9,20 +9,20 @@
 
 namespace tanglebin {
 
-/// Text from a file or the command line as an error message shows it: in quotes, on one line, cut after 40
-/// characters, \xNN for what does not print.
+/// Text from a file or the command line, for an error message: quoted, on one line, cut after 40 characters,
+/// with \xNN for characters that are not printable.
 std::string excerpt(std::string_view text);
 
-/// The words of a line, separated by white space. They point into `line`.
+/// The words of a line, separated by white space. They are views into `line`.
 std::vector<std::string_view> words_of(std::string_view line);
 
-/// The same, into a vector that is used again.
+/// The same, reusing a vector.
 void words_of(std::string_view line, std::vector<std::string_view>& words);
 
-/// The parts between separators: one more than there are separators. They point into `text`.
+/// The parts between separators: one more than there are separators. They are views into `text`.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// The number that all of `text` is, in any locale; none where it is not one or does not fit Number.
+/// Parses all of `text` as a number, in any locale. None if it is not a number or does not fit Number.
 template <class Number>
 std::optional<Number> to_number(std::string_view text) {
   Number value{};

@@ -19,7 +19,7 @@ std::optional<int> parse_positive(std::string_view text) {
   return value && *value >= 1 ? value : std::nullopt;
 }
 
-// The two numbers around a separator.
+// The two numbers on either side of a separator.
 std::optional<std::pair<int, int>> parse_pair(std::string_view text, char separator) {
   const std::size_t middle = text.find(separator);
   if (middle == std::string_view::npos) return std::nullopt;
@@ -29,7 +29,7 @@ std::optional<std::pair<int, int>> parse_pair(std::string_view text, char separa
   return std::pair{*first, *second};
 }
 
-// Ratios are counted in billionths, so that 0.1 and two steps of 0.1 are 0.3 to the last bit.
+// Ratios are counted in billionths, so that 0.1 plus two steps of 0.1 is exactly 0.3.
 constexpr double billion = 1e9;
 
 std::optional<std::int64_t> parse_billionths(std::string_view text) {
@@ -52,7 +52,7 @@ void write_output(const std::string& file, std::string_view bytes) {
     write_file(file, bytes);
     return;
   }
-  std::fwrite(bytes.data(), 1, bytes.size(), stdout);  // main() sees whether it is written
+  std::fwrite(bytes.data(), 1, bytes.size(), stdout);  // main() checks that it was written
 }
 
 Range parse_range(std::string_view text, const std::string& option) {
@@ -91,7 +91,8 @@ SegmentTree parse_tree(std::string_view text, const std::string& option) {
     const auto nodes = parse_pair(part.substr(0, colon), '-');
     const auto length = parse_length(part.substr(std::min(colon + 1, part.size())));
     if (!nodes || !length)
-      throw InputError({"", 0, option}, excerpt(part), "a segment and its length, m, such as 1-2:0.3");
+      throw InputError({"", 0, option}, excerpt(part),
+                       "a segment with its length in metres, such as 1-2:0.3");
     tree.push_back({nodes->first, nodes->second, *length});
   }
   validate(tree, option);
@@ -104,7 +105,7 @@ std::vector<double> parse_ratios(std::string_view text, const std::string& optio
   };
   const auto billionths_of = [&](std::string_view part) {
     const auto billionths = parse_billionths(part);
-    expect(billionths.has_value(), part, "a ratio above 0, at most 1 and of at most nine decimals");
+    expect(billionths.has_value(), part, "a ratio above 0 and at most 1, with at most nine decimals");
     return *billionths;
   };
 
@@ -117,7 +118,8 @@ std::vector<double> parse_ratios(std::string_view text, const std::string& optio
     const std::int64_t first = billionths_of(range[0]);
     const std::int64_t last = billionths_of(range[1]);
     const std::int64_t step = billionths_of(range[2]);
-    expect(first <= last && (last - first) % step == 0, text, "a step that leads from the first to the last");
+    expect(first <= last && (last - first) % step == 0, text,
+           "a step that leads from the first ratio to the last");
     constexpr std::int64_t most_steps = 999;
     expect((last - first) / step <= most_steps, text, "at most a thousand ratios");
     for (std::int64_t ratio = first; ratio <= last; ratio += step) ratios.push_back(ratio);
@@ -134,7 +136,7 @@ std::vector<double> parse_ratios(std::string_view text, const std::string& optio
 Shard parse_shard(std::string_view text, const std::string& option) {
   const auto parts = parse_pair(text, '/');
   if (!parts || parts->first > parts->second) {
-    throw InputError({"", 0, option}, excerpt(text), "a part I/N such as 2/8, I from 1 to N");
+    throw InputError({"", 0, option}, excerpt(text), "I/N with I from 1 to N, such as 2/8");
   }
   return {parts->first, parts->second};
 }

@@ -6,8 +6,8 @@ class App;
 
 namespace tanglebin::cli {
 
-// One function and one file a command: adds the subcommand with its options, help and callback. A callback
-// throws InputError for bad input; main() turns what it throws into a message and an exit code.
+// One function and one file per command. It adds the subcommand with its options, help and callback.
+// Callbacks throw InputError for bad input; main() turns exceptions into a message and an exit status.
 void add_generate(CLI::App& app);
 void add_merge(CLI::App& app);
 void add_verify(CLI::App& app);

@@ -90,7 +90,7 @@ void print_text(const ExperimentArguments& arguments, const ExperimentSummary& s
   if (!means.empty()) print_out("mean micro-recall at ratio {}\n", ratio);
   print_means(means);
   const RunProgress& run = summary.progress;
-  print_out("{}: {} cases modelled in {:.1f} s, {} were there{}\n", arguments.out, run.made, seconds,
+  print_out("{}: {} cases modelled in {:.1f} s, {} already there{}\n", arguments.out, run.made, seconds,
             run.found,
             summary.was_stopped()
                 ? fmt::format("; stopped, {} to go", run.wanted - run.found - run.made - run.failed)
@@ -126,19 +126,18 @@ void experiment(const ExperimentArguments& arguments) {
 
 void add_experiment(CLI::App& app) {
   const auto arguments = std::make_shared<ExperimentArguments>();
-  CLI::App* command =
-      app.add_subcommand("experiment", "Model and score every case of a dataset, as the paper's Section 6");
-  command->add_option("dataset", arguments->dataset, "Directory of a dataset made by generate")->required();
-  command->add_option("--out", arguments->out, "Directory of the results; a run that was stopped goes on")
+  CLI::App* command = app.add_subcommand(
+      "experiment", "Model and score every case of a dataset, as in the paper's Section 6");
+  command->add_option("dataset", arguments->dataset, "Directory of a dataset from `tanglebin generate`")
       ->required();
-  command->add_option("--method", arguments->methods, "Methods: axis, paper or both, one option each")
+  command->add_option("--out", arguments->out, "Directory of the results; resumes an interrupted run")
+      ->required();
+  command->add_option("--method", arguments->methods, "Method: axis or paper; repeat the option for both")
       ->capture_default_str();
-  command
-      ->add_option("--downsample", arguments->ratios,
-                   "Shares of the points to model from: 0.1,0.3 or first:last:step")
+  command->add_option("--downsample", arguments->ratios, "Downsampling ratios: 0.1,0.3 or first:last:step")
       ->capture_default_str();
   add_options(*command, arguments->many);
-  command->add_option("--seed", arguments->seed, "Of the random choices that the methods make")
+  command->add_option("--seed", arguments->seed, "Seed of the downsampling")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command->add_option(
@@ -148,7 +147,8 @@ void add_experiment(CLI::App& app) {
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin experiment dataset --out results --downsample 0.3 --tubes 10 --cases 1-3\n"
-      "Formats: docs/formats.md. Ctrl-C finishes the cases under way; the same command goes on.");
+      "Ctrl-C finishes the cases in progress; run the same command again to resume.\n"
+      "Formats: docs/formats.md.");
   command->callback([arguments] { experiment(*arguments); });
 }
 

@@ -30,8 +30,8 @@ nlohmann::ordered_json json_of(const FillReport& report, const FillSummary& summ
 void print_text(const FillReport& report, const FillSummary& summary, double seconds) {
   const RunProgress& run = summary.progress;
   const DatasetSummary& dataset = summary.dataset;
-  print_out("{}: {} cases {} in {:.1f} s ({} attempts rejected), {} were there", report.directory, run.made,
-            report.verb, seconds, run.rejected, run.found);
+  print_out("{}: {} cases {} in {:.1f} s, {} already there, {} attempts rejected", report.directory, run.made,
+            report.verb, seconds, run.found, run.rejected);
   if (run.failed > 0) print_out(", {} failed", run.failed);
   if (summary.was_stopped()) {
     print_out("; stopped, {} to go", run.wanted - run.found - run.made - run.failed);

@@ -7,16 +7,16 @@
 
 namespace tanglebin::cli {
 
-/// How a command that fills a dataset tells what came of it.
+/// How a command that fills a dataset reports the result.
 struct FillReport {
   std::string directory;
-  std::string verb;  ///< "made", "merged"
+  std::string verb;  ///< "generated", "merged"
   bool json = false;
   ProgressStyle progress = ProgressStyle::line;
 };
 
-/// Prints what came of a run, each failed case on standard error. Throws CLI::RuntimeError where the command
-/// is to end with another status than 0: 1 where cases have failed, 130 where it was stopped.
+/// Prints the result of a run, with each failed case on standard error. Throws CLI::RuntimeError to set a
+/// nonzero exit status: 1 if cases failed, 130 if the run was interrupted.
 void report_fill(const FillReport& report, const FillSummary& summary, double seconds);
 
 }  // namespace tanglebin::cli

@@ -61,30 +61,31 @@ void generate(const GenerateArguments& arguments) {
     return generate_dataset(recipe, wanted, arguments.out, arguments.many.jobs, progress.observer(),
                             shard ? name_of(*shard) : "");
   }();
-  report_fill({arguments.out, "made", arguments.json, arguments.progress}, summary, seconds_since(start));
+  report_fill({arguments.out, "generated", arguments.json, arguments.progress}, summary,
+              seconds_since(start));
 }
 
 }  // namespace
 
 void add_generate(CLI::App& app) {
   const auto arguments = std::make_shared<GenerateArguments>();
-  CLI::App* command = app.add_subcommand("generate", "Make a dataset of labelled scans from a recipe");
-  command->add_option("recipe", arguments->recipe, "Recipe (TOML); - reads standard input")->required();
-  command->add_option("--out", arguments->out, "Directory of the dataset; a run that was stopped goes on")
+  CLI::App* command = app.add_subcommand("generate", "Generate a dataset of labelled scans from a recipe");
+  command->add_option("recipe", arguments->recipe, "Recipe (TOML); - for standard input")->required();
+  command->add_option("--out", arguments->out, "Directory of the dataset; resumes an interrupted run")
       ->required();
   add_options(*command, arguments->many);
   command->add_option(
       "--shard", arguments->shard,
-      "Make the I-th of N parts of the cases (I/N); where it is not given, a Slurm array's or "
-      "a Kubernetes indexed job's");
-  command->add_option("--seed", arguments->seed, "Seed in place of the recipe's")
+      "Generate part I of N of the cases (I/N) [default: from a Slurm job array or Kubernetes indexed job]");
+  command->add_option("--seed", arguments->seed, "Seed, instead of the recipe's")
       ->check(CLI::NonNegativeNumber);
   add_progress_option(*command, arguments->progress);
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin generate recipes/set-a.toml --out dataset --tubes 10 --cases 1-3\n"
-      "Formats: docs/formats.md; clusters: docs/cluster.md. Ctrl-C finishes the cases under way; the same\n"
-      "command goes on. Ends with 1 where cases were given up, 130 where it was stopped.");
+      "Ctrl-C finishes the cases in progress; run the same command again to resume.\n"
+      "Exit status: 1 if cases failed, 130 if interrupted.\n"
+      "Formats: docs/formats.md. Clusters: docs/cluster.md.");
   command->callback([arguments] { generate(*arguments); });
 }
 

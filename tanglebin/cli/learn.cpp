@@ -43,7 +43,7 @@ Count count(const std::vector<EndExample>& ends, LinkKind kind) {
       if (link.is_true) ++result.true_links;
     }
   }
-  // A link is an example at each end that it takes up.
+  // A link is an example for each end that it uses up.
   return {result.links / ends_taken(kind), result.true_links / ends_taken(kind)};
 }
 
@@ -57,7 +57,7 @@ void learn(const LearnArguments& arguments) {
     const auto [links, true_links] = count(examples, kind);
     json[name] = {{"links", links}, {"true", true_links}, {"weights", weights.of(kind)}};
     if (!arguments.json) {
-      print_out("{:<10} {{{:.4f}}}  of {} links, {} true\n", name, fmt::join(weights.of(kind), ", "), links,
+      print_out("{:<10} {{{:.4f}}}  from {} links, {} true\n", name, fmt::join(weights.of(kind), ", "), links,
                 true_links);
     }
   }
@@ -69,12 +69,13 @@ void learn(const LearnArguments& arguments) {
 void add_learn(CLI::App& app) {
   const auto arguments = std::make_shared<LearnArguments>();
   CLI::App* command =
-      app.add_subcommand("learn", "Learn how the axis method weighs links, from the scenes of a dataset");
-  command->add_option("dataset", arguments->dataset, "Directory of a dataset made by generate")->required();
+      app.add_subcommand("learn", "Learn the axis method's link weights from the scenes of a dataset");
+  command->add_option("dataset", arguments->dataset, "Directory of a dataset from `tanglebin generate`")
+      ->required();
   command->add_flag("--json", arguments->json, "Print the weights as JSON");
   command->footer(
       "Example:\n  tanglebin learn dataset\n"
-      "What ships was learned from recipes/learning.toml: docs/algorithm.md.");
+      "The built-in weights are from recipes/learning.toml (docs/algorithm.md).");
   command->callback([arguments] { learn(*arguments); });
 }
 

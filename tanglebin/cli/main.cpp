@@ -20,7 +20,8 @@ constexpr int exit_bad_input = 2;
 constexpr int exit_usage = 64;  // EX_USAGE of sysexits.h
 
 int run(int argc, char** argv) {
-  CLI::App app{"Labelled 3D scans of bins of entangled tubes: generate, settle, scan, model, score."};
+  CLI::App app{
+      "Simulate labelled 3D scans of bins of entangled tubes; model the tubes and score the result."};
   app.name("tanglebin");
   app.set_version_flag("--version", TANGLEBIN_VERSION);
   app.require_subcommand(1);
@@ -37,7 +38,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);  // runs the chosen command's callback
   } catch (const CLI::ParseError& error) {
-    // A command that ends early by its own choice says with which status; all else is wrong usage.
+    // A RuntimeError carries the exit status that a command chose; anything else is wrong usage.
     const int status = app.exit(error);
     const bool is_usage = dynamic_cast<const CLI::RuntimeError*>(&error) == nullptr;
     return status != 0 && is_usage ? exit_usage : status;
@@ -45,7 +46,7 @@ int run(int argc, char** argv) {
   return 0;
 }
 
-// What can be wrong with a pipe is that nobody reads it any more, which is the reader's wish.
+// Writing to a pipe only fails if the reader has closed it, which is the reader's choice.
 bool is_pipe(int descriptor) {
   struct stat status {};
   return fstat(descriptor, &status) == 0 && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
@@ -72,10 +73,10 @@ int run_and_explain(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Where the program that reads the output ends, this one goes on: it has more to do than to print.
+  // If the reader of the output exits, this program goes on: it does more than print.
   std::signal(SIGPIPE, SIG_IGN);
   const int status = run_and_explain(argc, argv);
   if (!is_output_lost()) return status;
-  print_error("tanglebin: standard output: cannot write all of it\n");
+  print_error("tanglebin: standard output: cannot write all output\n");
   return exit_bad_input;
 }

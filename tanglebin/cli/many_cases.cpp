@@ -11,7 +11,7 @@ namespace tanglebin::cli {
 
 void add_jobs_option(CLI::App& command, int& jobs) {
   jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  command.add_option("--jobs", jobs, "Processes that work side by side")
+  command.add_option("--jobs", jobs, "Number of worker processes")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));
 }
@@ -33,7 +33,7 @@ std::vector<CaseId> chosen(const ManyCases& many, std::vector<CaseId> cases, con
     const Range range = parse_range(*many.cases, "--cases");
     std::erase_if(cases, [&](const CaseId& id) { return id.number < range.first || id.number > range.last; });
   }
-  if (cases.empty()) throw InputError({source, 0, ""}, "no case has this --set, --tubes and --cases");
+  if (cases.empty()) throw InputError({source, 0, ""}, "no case matches --set, --tubes and --cases");
   return cases;
 }
 

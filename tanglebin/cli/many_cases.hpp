@@ -10,10 +10,10 @@ namespace CLI {
 class App;
 }
 
-// What the commands that work on many cases have in common.
+// Options shared by the commands that work on many cases.
 namespace tanglebin::cli {
 
-/// Which cases, and in how many processes.
+/// Which cases to work on, and in how many processes.
 struct ManyCases {
   int jobs = 1;
   std::vector<std::string> sets;
@@ -21,20 +21,19 @@ struct ManyCases {
   std::optional<std::string> cases;
 };
 
-/// Adds --jobs, which sets `jobs`; as many as there are processors, where it is not given.
+/// Adds --jobs, which sets `jobs`; the default is the number of processors.
 void add_jobs_option(CLI::App& command, int& jobs);
 
-/// Adds --jobs, --set, --tubes and --cases, which fill `many`; jobs as many as there are processors.
+/// Adds --jobs, --set, --tubes and --cases, which fill `many`.
 void add_options(CLI::App& command, ManyCases& many);
 
-/// Those of the cases that --set, --tubes and --cases let through. Throws InputError naming `source` where
-/// there is none.
+/// The cases that match --set, --tubes and --cases. Throws InputError naming `source` if there are none.
 std::vector<CaseId> chosen(const ManyCases& many, std::vector<CaseId> cases, const std::string& source);
 
-/// Exit status of a command that SIGINT or SIGTERM stopped, as a shell reports SIGINT.
+/// Exit status of a command interrupted by SIGINT or SIGTERM, as a shell reports SIGINT.
 inline constexpr int exit_interrupted = 130;
 
-/// Exit status of a command that gave cases up.
+/// Exit status of a command with failed cases.
 inline constexpr int exit_cases_failed = 1;
 
 }  // namespace tanglebin::cli

@@ -34,16 +34,17 @@ void merge(const MergeArguments& arguments) {
 
 void add_merge(CLI::App& app) {
   const auto arguments = std::make_shared<MergeArguments>();
-  CLI::App* command = app.add_subcommand("merge", "Bring parts of a dataset that were made apart together");
-  command->add_option("parts", arguments->parts, "Directories of datasets of one recipe")->required();
-  command->add_option("--out", arguments->out, "Directory of the whole; a merge that was stopped goes on")
+  CLI::App* command = app.add_subcommand("merge", "Merge parts of a dataset that were generated separately");
+  command->add_option("parts", arguments->parts, "Directories of datasets with the same recipe")->required();
+  command
+      ->add_option("--out", arguments->out, "Directory of the merged dataset; resumes an interrupted merge")
       ->required();
   add_jobs_option(*command, arguments->jobs);
   add_progress_option(*command, arguments->progress);
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin merge part1 part2 --out dataset\n"
-      "Every file is copied and checked; the parts stay as they are.");
+      "Copies and checks every file. Does not change the parts.");
   command->callback([arguments] { merge(*arguments); });
 }
 

@@ -48,7 +48,7 @@ struct ModelArguments {
   bool json = false;
 };
 
-// Of each kind of tubes, or one for all.
+// For each kind of tube, or one for all.
 std::vector<SegmentTree> known_segments(const ModelArguments& arguments) {
   std::vector<SegmentTree> segments;
   for (const std::string& tree : arguments.trees) segments.push_back(parse_tree(tree, "--tree"));
@@ -60,8 +60,10 @@ std::vector<SegmentTree> known_segments(const ModelArguments& arguments) {
 
 KnownScene known_scene(const ModelArguments& arguments, const PointCloud& cloud) {
   KnownScene known{.bin = bin_preset(arguments.bin), .camera = camera_preset(arguments.scanner)};
-  const std::vector<double> radii = arguments.radius == "auto" ? std::vector{with_file(arguments.cloud, [&] { return estimate_radius(cloud, known); })}
-                                                               : parse_lengths(arguments.radius, "--radius");
+  const std::vector<double> radii =
+      arguments.radius == "auto"
+          ? std::vector{with_file(arguments.cloud, [&] { return estimate_radius(cloud, known); })}
+          : parse_lengths(arguments.radius, "--radius");
   const std::vector<SegmentTree> segments = known_segments(arguments);
   if (segments.size() != 1 && segments.size() != radii.size()) {
     const std::string what = arguments.trees.empty() ? "length" : "tree";
@@ -74,8 +76,8 @@ KnownScene known_scene(const ModelArguments& arguments, const PointCloud& cloud)
   return known;
 }
 
-// The cloud's points in their order, with the labels that were found. PLY has no place for points without a
-// position, which organized clouds have.
+// The cloud's points in their order, with the labels found. PLY cannot store points without a position, which
+// organized clouds have.
 PointCloud labelled_cloud(const PointCloud& cloud, const Model& model, bool keep_missing_points) {
   const std::vector<Color> colors = label_colors(static_cast<int>(model.tubes.size()));
   PointCloud labelled;
@@ -92,7 +94,7 @@ PointCloud labelled_cloud(const PointCloud& cloud, const Model& model, bool keep
   return labelled;
 }
 
-// PLY, or PCD where the file's name asks for it.
+// PLY, or PCD if the file name ends in .pcd.
 std::string cloud_bytes(const PointCloud& cloud, const Model& model, const std::string& file) {
   std::ostringstream out;
   if (std::filesystem::path(file).extension() == ".pcd") {
@@ -173,49 +175,48 @@ void model_cloud(const ModelArguments& arguments) {
 
 void add_model(CLI::App& app) {
   const auto arguments = std::make_shared<ModelArguments>();
-  CLI::App* command = app.add_subcommand("model", "Model the tubes of a cloud and label its points");
-  command->add_option("cloud", arguments->cloud, "Cloud (PLY or PCD); - reads standard input")->required();
+  CLI::App* command = app.add_subcommand("model", "Model the tubes in a cloud and label its points");
+  command->add_option("cloud", arguments->cloud, "Cloud (PLY or PCD); - for standard input")->required();
   command
       ->add_option("--out", arguments->out,
-                   "The same points with labels: .ply or .pcd; - writes PLY to standard output")
+                   "The same cloud with labels: .ply or .pcd; - for PLY on standard output")
       ->required();
-  command->add_option("--tubes", arguments->tubes, "The tubes (text, docs/formats.md)");
+  command->add_option("--tubes", arguments->tubes, "Also write the tubes (text, docs/formats.md)");
   command->add_option("--method", arguments->method, "Method: axis or paper")->capture_default_str();
   command
       ->add_option("--downsample", arguments->downsample,
-                   "Share of the points that tubes are modelled from; every point gets a label all the same")
+                   "Downsampling ratio; points left out of the modelling are labelled too")
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "Seed of the downsampling")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_option("--bin", arguments->bin, "Bin that the tubes lie in: paper or published")
-      ->capture_default_str();
-  command->add_option("--scanner", arguments->scanner, "Camera: paper or zivid-one-plus-l")
+  command->add_option("--bin", arguments->bin, "Bin: paper or published")->capture_default_str();
+  command
+      ->add_option("--scanner", arguments->scanner, "Camera: paper, gaussian, zivid-one-plus-l or kinect-v1")
       ->capture_default_str();
   command
       ->add_option(
           "--radius", arguments->radius,
-          "Radius of the tubes, m; one for each kind of tubes: 0.008,0.0125; auto estimates one from the "
-          "cloud")
+          "Radius of the tubes, m; 0.008,0.0125 for two kinds of tubes; auto to estimate it from the cloud")
       ->capture_default_str();
-  CLI::Option* const length = command->add_option("--length", arguments->length,
-                                                  "Length of each tube, m; or one for each radius: 0.4,0.5");
+  CLI::Option* const length =
+      command->add_option("--length", arguments->length, "Length of the tubes, m; 0.4,0.5 for two radii");
   length->capture_default_str();
   command
       ->add_option(
           "--tree", arguments->trees,
-          "Tubes that branch: the segments between their junctions and ends, and how long these are, "
-          "m: 1-2:0.3,1-3:0.1,1-4:0.1; or one option for each radius (method axis)")
+          "Segments of branching tubes, as pairs of nodes with a length, m: 1-2:0.3,1-3:0.1,1-4:0.1; repeat "
+          "the option for each radius (method axis)")
       ->excludes(length);
   command->add_option(
       "--parameter", arguments->parameters,
       "Set a parameter of the method: NAME=VALUE, such as axis.fit.tolerance=0.1 (docs/algorithm.md)");
   command->add_option("--debug-dir", arguments->debug_directory,
-                      "Directory for a picture of what each step left");
+                      "Directory for pictures of the result of each step");
   command->add_flag("--json", arguments->json, "Print the steps as JSON");
   command->footer(
       "Example:\n  tanglebin model dataset/A10/plys/1.ply --out labelled.ply --tubes tubes.txt\n"
-      "The cloud's own labels and colours are not looked at. Methods: docs/algorithm.md.");
+      "Ignores the cloud's own labels and colours. Methods: docs/algorithm.md.");
   command->callback([arguments] { model_cloud(*arguments); });
 }
 

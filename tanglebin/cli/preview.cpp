@@ -45,7 +45,7 @@ View view_of(const Options& options) {
           .height = options.height};
 }
 
-/// Tells configurations and clouds apart by their first character, as it works for pipes, too.
+/// Distinguishes configurations from clouds by the first character, which also works for pipes.
 Picture draw(std::istream& in, const std::string& name, const Options& options) {
   const int first = in.peek();
   if (first == 'p' || first == '#' || first == 'V') {
@@ -55,14 +55,14 @@ Picture draw(std::istream& in, const std::string& name, const Options& options) 
     const bool is_empty = first == std::istream::traits_type::eof();
     const char character = std::istream::traits_type::to_char_type(first);
     throw InputError({.file = name, .line = 0, .field = ""},
-                     is_empty ? "an empty file" : excerpt({&character, 1}) + " first",
+                     is_empty ? "an empty file" : excerpt({&character, 1}) + " at the start",
                      "a configuration, which begins with the number of tubes, or a PLY or PCD cloud");
   }
   return picture_of_tubes(read_configuration(in, name), bin_preset(options.bin), view_of(options), name);
 }
 
 Picture draw_file(const std::string& file, const Options& options) {
-  // Linux opens a directory for reading without complaint.
+  // Linux lets you open a directory for reading.
   if (std::filesystem::is_directory(file)) {
     throw InputError({.file = file, .line = 0, .field = ""}, "a directory", "a configuration or a cloud");
   }
@@ -84,18 +84,21 @@ void run(const Options& options) {
 
 void add_preview(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("preview", "Draws a configuration of tubes or a point cloud.");
+  CLI::App* command = app.add_subcommand("preview", "Draw a tube configuration or a point cloud");
   command
-      ->add_option("input", options->input, "configuration (.txt) or cloud (.ply, .pcd); -: standard input")
+      ->add_option("input", options->input,
+                   "Configuration (.txt) or cloud (.ply, .pcd); - for standard input")
       ->required();
-  command->add_option("--out", options->out, "picture to write (.png); -: standard output")->required();
-  command->add_option("--azimuth-deg", options->azimuth_deg, "where the viewer stands, from +x towards +y")
+  command->add_option("--out", options->out, "Picture to write (.png); - for standard output")->required();
+  command->add_option("--azimuth-deg", options->azimuth_deg, "Direction of the viewer, from +x towards +y")
       ->capture_default_str();
-  command->add_option("--elevation-deg", options->elevation_deg, "how high above the horizontal, -90 to 90")
+  command
+      ->add_option("--elevation-deg", options->elevation_deg,
+                   "Elevation of the viewer above the horizontal, -90 to 90")
       ->capture_default_str();
-  command->add_option("--width", options->width, "of the picture, pixels")->capture_default_str();
-  command->add_option("--height", options->height, "of the picture, pixels")->capture_default_str();
-  command->add_option("--bin", options->bin, "around the tubes of a configuration: paper or published")
+  command->add_option("--width", options->width, "Width of the picture, pixels")->capture_default_str();
+  command->add_option("--height", options->height, "Height of the picture, pixels")->capture_default_str();
+  command->add_option("--bin", options->bin, "Bin around a configuration: paper or published")
       ->capture_default_str();
   command->footer(example);
   command->callback([options] { run(*options); });

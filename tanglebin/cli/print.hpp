@@ -7,17 +7,17 @@
 #include <string>
 #include <utility>
 
-// Printing that never throws: that a terminal, or a program that reads, is gone ends no run.
+// Printing that never throws: a run goes on even if the terminal or the reader is gone.
 namespace tanglebin::cli {
 
-/// Prints formatted text to standard output. What could not be written is told of by main() at the end.
+/// Prints formatted text to standard output. main() reports lost output at the end.
 template <typename... Values>
 void print_out(fmt::format_string<Values...> format, Values&&... values) {
   const std::string text = fmt::format(format, std::forward<Values>(values)...);
   std::fwrite(text.data(), 1, text.size(), stdout);
 }
 
-/// Prints a line of JSON to standard output. File names may be any bytes: what is not UTF-8 is replaced.
+/// Prints a line of JSON to standard output. Bytes that are not UTF-8, as in file names, are replaced.
 inline void print_json_line(const nlohmann::ordered_json& json) {
   print_out("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }

@@ -21,7 +21,7 @@ std::size_t remaining(const RunProgress& progress) {
   return progress.wanted - progress.found - done(progress);
 }
 
-// A program at the other end of a pipe is to have the event now.
+// Flushes, so that a program at the other end of a pipe gets the event at once.
 void print_event(const nlohmann::ordered_json& event) {
   print_json_line(event);
   std::fflush(stdout);
@@ -34,7 +34,7 @@ void add_progress_option(CLI::App& command, ProgressStyle& style) {
                                                     {"json", ProgressStyle::json}};
   command
       .add_option("--progress", style,
-                  "line: one on the terminal; json: a line of JSON on standard output for each event")
+                  "line: one line on the terminal; json: a line of JSON on standard output for each event")
       ->transform(CLI::CheckedTransformer(styles))
       ->option_text("line|json [line]");
 }
@@ -61,7 +61,7 @@ void ProgressReport::show_line(const RunProgress& progress) {
   std::string line = fmt::format("\r{} of {} cases", progress.found + done(progress), progress.wanted);
   if (done(progress) > 0) {
     const double pace = rate(progress);
-    line += fmt::format(", {:.2g} a second, {} left", pace,
+    line += fmt::format(", {:.2g}/s, {} left", pace,
                         duration_text(static_cast<double>(remaining(progress)) / pace));
   }
   if (progress.rejected > 0) line += fmt::format(", {} attempts rejected", progress.rejected);

@@ -13,24 +13,24 @@ class App;
 
 namespace tanglebin::cli {
 
-/// How a command over many cases tells how far it is.
+/// How a command over many cases reports progress.
 enum class ProgressStyle {
-  line,  ///< on a terminal's standard error, one line that is written over and over; elsewhere nothing
-  json,  ///< on standard output, a line of JSON for each event (docs/formats.md)
+  line,  ///< a line on standard error that is updated in place; only on a terminal
+  json,  ///< a line of JSON for each event on standard output (docs/formats.md)
 };
 
 /// Adds --progress, which sets `style`.
 void add_progress_option(CLI::App& command, ProgressStyle& style);
 
-/// Tells how far a run is.
+/// Reports the progress of a run.
 class ProgressReport {
 public:
   explicit ProgressReport(ProgressStyle style) : style_(style) {}
-  ~ProgressReport();  ///< leaves the terminal's line as it is and begins a new one
+  ~ProgressReport();  ///< ends the terminal's line
   ProgressReport(const ProgressReport&) = delete;
   ProgressReport& operator=(const ProgressReport&) = delete;
 
-  /// What the run is to tell; not to be used after the report.
+  /// The observer to pass to the run. Must not outlive the report.
   RunObserver observer();
 
 private:
@@ -48,10 +48,10 @@ private:
   Clock::time_point last_printed_{};
 };
 
-/// A time as a person says it: "45 s", "12 min 30 s", "3 h 05 min".
+/// A readable duration: "45 s", "12 min 30 s", "3 h 05 min".
 std::string duration_text(double seconds);
 
-/// Wall clock.
+/// Wall-clock time since `start`, s.
 double seconds_since(std::chrono::steady_clock::time_point start);
 
 }  // namespace tanglebin::cli

@@ -24,15 +24,13 @@ void write_report(const ReportArguments& arguments) {
 void add_report(CLI::App& app) {
   const auto arguments = std::make_shared<ReportArguments>();
   CLI::App* command =
-      app.add_subcommand("report", "Write an experiment's results as a page, beside the paper's");
-  command->add_option("results", arguments->results, "Directory that `tanglebin experiment` wrote")
+      app.add_subcommand("report", "Write an HTML page of an experiment's results, beside the paper's");
+  command->add_option("results", arguments->results, "Directory of results from `tanglebin experiment`")
       ->required();
-  command
-      ->add_option("--out", arguments->out,
-                   "HTML page to write: one file that needs no other; - writes standard output")
+  command->add_option("--out", arguments->out, "Self-contained HTML page to write; - for standard output")
       ->required();
   command->footer(
-      "Draws with gnuplot (Debian: gnuplot-nox).\n\n"
+      "Needs gnuplot for the plots (Debian: gnuplot-nox).\n\n"
       "Example:\n  tanglebin report results --out report.html");
   command->callback([arguments] { write_report(*arguments); });
 }

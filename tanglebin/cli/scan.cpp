@@ -48,7 +48,7 @@ int largest_id(const std::vector<Tube>& tubes) {
   return largest;
 }
 
-// PLY, or an organized PCD where the file's name asks for it.
+// PLY, or an organized PCD if the file name ends in .pcd.
 std::string cloud_bytes(const ScanArguments& arguments, const Scan& view, int tubes) {
   const CloudOf what = arguments.with_bin ? CloudOf::tubes_and_bin : CloudOf::tubes;
   std::ostringstream out;
@@ -104,40 +104,37 @@ void scan_configuration(const ScanArguments& arguments) {
 
 void add_scan(CLI::App& app) {
   const auto arguments = std::make_shared<ScanArguments>();
-  CLI::App* command = app.add_subcommand("scan", "Scan a configuration of tubes into a labelled cloud");
+  CLI::App* command = app.add_subcommand("scan", "Scan a tube configuration into a labelled cloud");
   command
-      ->add_option("configuration", arguments->configuration, "Configuration (text); - reads standard input")
+      ->add_option("configuration", arguments->configuration,
+                   "Tube configuration (text); - for standard input")
       ->required();
   command
       ->add_option("--out", arguments->out,
-                   "Cloud: .ply, or .pcd for an organized one; - writes PLY to standard output")
+                   "Cloud: .ply, or .pcd for an organized cloud; - for PLY on standard output")
       ->required();
-  command->add_option("--bin", arguments->bin, "Bin that the tubes lie in: paper or published")
-      ->capture_default_str();
+  command->add_option("--bin", arguments->bin, "Bin: paper or published")->capture_default_str();
   command
       ->add_option("--scanner", arguments->scanner,
-                   "Scanner: paper, which is ideal, gaussian, zivid-one-plus-l or kinect-v1")
+                   "Scanner: paper (ideal), gaussian, zivid-one-plus-l or kinect-v1")
       ->capture_default_str();
   command
       ->add_option("--set", arguments->settings,
-                   "A setting of the scanner in place of its own, such as scanner.baseline=0.3")
+                   "Change a setting of the scanner, such as scanner.baseline=0.3")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command
-      ->add_option("--seed", arguments->seed,
-                   "What a scanner's noise follows from: a seed as a manifest has it, hexadecimal")
+  command->add_option("--seed", arguments->seed, "Seed of the scanner's noise, hexadecimal as in a manifest")
       ->capture_default_str();
-  command->add_flag("--with-bin", arguments->with_bin, "Give the bin's points too, label 0");
+  command->add_flag("--with-bin", arguments->with_bin, "Include the points on the bin, with label 0");
   command->add_option("--depth", arguments->depth,
-                      "Also a 16-bit depth image (PNG) and its camera beside it (JSON)");
-  command->add_option("--labels", arguments->labels, "Also a 16-bit label image (PNG)");
+                      "Also write a 16-bit depth image (PNG), with its camera beside it (JSON)");
+  command->add_option("--labels", arguments->labels, "Also write a 16-bit label image (PNG)");
   command->add_option("--picture", arguments->picture,
-                      "Also a picture: depth, labels, signal and error beside an ideal scan (PNG)");
-  command->add_flag("--normals", arguments->properties.normals, "Give the points normals");
-  command->add_flag("--intensities", arguments->properties.intensities,
-                    "Give the points their signal-to-noise ratios");
+                      "Also write a picture (PNG): depth, labels, signal and error, beside an ideal scan");
+  command->add_flag("--normals", arguments->properties.normals, "Include normals");
+  command->add_flag("--intensities", arguments->properties.intensities, "Include signal-to-noise ratios");
   command->add_flag("--mixed", arguments->properties.mixed,
-                    "Mark points that are the mean of several surfaces");
+                    "Mark mixed points, which are the mean of several surfaces");
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin scan dataset/A10/tube_configurations/1.txt --out cloud.ply --with-bin\n"

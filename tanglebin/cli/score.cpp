@@ -135,7 +135,7 @@ void print_tubes_score(const TubesScore& score) {
   print_out("joins                {} of {} missing, {} of {} wrong\n", score.true_joins - score.joins_found,
             score.true_joins, score.joins_made - score.joins_found, score.joins_made);
   print_out("complete tubes       {}{}\n", score.complete_tubes,
-            score.length_error ? fmt::format("  length off by {:.2f} %", 100 * *score.length_error) : "");
+            score.length_error ? fmt::format("  length error {:.2f} %", 100 * *score.length_error) : "");
   if (score.true_junctions > 0 || score.junctions_made > 0) {
     print_out("junctions            {} of {} found, {} made\n", score.junctions_found, score.true_junctions,
               score.junctions_made);
@@ -158,7 +158,7 @@ void print_text(const Score& score, const std::optional<TubesScore>& tubes_score
   print_tubes(score);
 }
 
-// Where configurations are given.
+// Only if configurations are given.
 std::optional<TubesScore> score_configurations(const ScoreArguments& arguments) {
   if (!arguments.true_tubes || !arguments.tubes) return {};
   const auto read = [](auto&&... from) { return read_configuration(from...); };
@@ -192,29 +192,29 @@ void score_labels(const ScoreArguments& arguments) {
 
 void add_score(CLI::App& app) {
   const auto arguments = std::make_shared<ScoreArguments>();
-  CLI::App* command = app.add_subcommand("score", "Score the labels of a cloud against the truth");
+  CLI::App* command = app.add_subcommand("score", "Score the labels of a cloud against the ground truth");
   command
       ->add_option("--truth", arguments->truth,
-                   "Cloud with the true labels (PLY or PCD); - reads standard input")
+                   "Cloud with the true labels (PLY or PCD); - for standard input")
       ->required();
   command
       ->add_option("--labels", arguments->labels,
-                   "Cloud with labels to score: points of the truth, all or some, in any order; - reads "
+                   "Cloud with the labels to score: all or some points of the truth, in any order; - for "
                    "standard input")
       ->required();
   CLI::Option* true_tubes = command->add_option("--true-tubes", arguments->true_tubes,
-                                                "The true tubes' configuration, to score --tubes against");
+                                                "Configuration of the true tubes, to score --tubes against");
   CLI::Option* tubes = command->add_option("--tubes", arguments->tubes,
                                            "Configuration of the modelled tubes, to score them too");
   true_tubes->needs(tubes);
   tubes->needs(true_tubes);
   command->add_flag("--json", arguments->json, "Print the score as JSON");
   command->add_flag("--confusion", arguments->confusion,
-                    "Also the confusion matrix: points of each tube by label");
+                    "Also print the confusion matrix: points of each tube by label");
   command->footer(
-      "A cloud without labels is read by its colours: each is a label, black is null.\n\n"
+      "If a cloud has no labels, each of its colours counts as a label, and black as null.\n\n"
       "Example:\n  tanglebin score --truth dataset/A10/plys/1.ply --labels labelled.ply\n"
-      "Measures: docs/metrics.md. From your own algorithm to its score: docs/scoring.md.");
+      "Measures: docs/metrics.md. Scoring your own algorithm: docs/scoring.md.");
   command->callback([arguments] { score_labels(*arguments); });
 }
 

@@ -58,10 +58,10 @@ void print_text(const VerifyArguments& arguments, const VerifySummary& summary, 
   for (const auto& [where, what] : summary.faults) print_out("{}: {}\n", where, what);
   print_out("{}: {} of the recipe's {} cases, digest {}; ", arguments.dataset, summary.cases,
             cases(summary.recipe).size(), summary.digest);
-  if (repaired > 0) print_out("{} cases made again, ", repaired);
+  if (repaired > 0) print_out("{} cases regenerated, ", repaired);
   print_out("{}\n", summary.was_stopped      ? "stopped"
-                    : summary.faults.empty() ? "nothing is wrong"
-                                             : fmt::format("{} faults", summary.faults.size()));
+                    : summary.faults.empty() ? "no faults found"
+                                             : fmt::format("{} faults found", summary.faults.size()));
 }
 
 void verify_and_report(const VerifyArguments& arguments) {
@@ -89,17 +89,16 @@ void verify_and_report(const VerifyArguments& arguments) {
 
 void add_verify(CLI::App& app) {
   const auto arguments = std::make_shared<VerifyArguments>();
-  CLI::App* command =
-      app.add_subcommand("verify", "Look for everything that can be wrong with a dataset, and repair it");
+  CLI::App* command = app.add_subcommand("verify", "Check a dataset for faults, and repair it");
   command->add_option("dataset", arguments->dataset, "Directory of a dataset")->required();
-  command->add_flag("--rest", arguments->rest, "Simulate every heap again, too: does it lie still?");
-  command->add_flag("--repair", arguments->repair, "Make the cases that are missing or broken again");
+  command->add_flag("--rest", arguments->rest, "Also check that every heap is at rest, by simulation");
+  command->add_flag("--repair", arguments->repair, "Regenerate missing and broken cases");
   add_jobs_option(*command, arguments->jobs);
   add_progress_option(*command, arguments->progress);
-  command->add_flag("--json", arguments->json, "Print what was found as JSON");
+  command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->footer(
       "Example:\n  tanglebin verify dataset --repair\n"
-      "Ends with 1 and a list where something is wrong, after a repair with what is still wrong.");
+      "Lists the faults and exits with status 1 if there are any; with --repair, if any remain.");
   command->callback([arguments] { verify_and_report(*arguments); });
 }
 

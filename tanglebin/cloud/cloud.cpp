@@ -11,8 +11,8 @@ namespace {
 
 void check_length(std::size_t values, std::size_t points, const char* what) {
   if (values != 0 && values != points) {
-    throw std::invalid_argument(std::string("point cloud: as many ") + what +
-                                " as points are needed, or none");
+    throw std::invalid_argument(std::string("point cloud: the number of ") + what +
+                                " must be the number of points, or 0");
   }
 }
 
@@ -29,7 +29,7 @@ void check_cloud(const PointCloud& cloud) {
     throw std::invalid_argument("point cloud: width * height must be the number of points");
   }
   if (std::ranges::any_of(cloud.labels, [](std::int32_t label) { return label < null_label; })) {
-    throw std::invalid_argument("point cloud: no label is below -1");
+    throw std::invalid_argument("point cloud: labels must not be below -1");
   }
 }
 

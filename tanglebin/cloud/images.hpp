@@ -9,7 +9,7 @@ namespace tanglebin {
 struct DepthImage {
   int width;
   int height;
-  std::vector<float> depths;  ///< m; NaN where nothing was measured
+  std::vector<float> depths;  ///< m; NaN if nothing was measured
 };
 
 /// Labels, row by row (geometry/labels.hpp).

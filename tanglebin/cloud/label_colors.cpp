@@ -15,9 +15,9 @@ namespace {
 constexpr int most_tubes = 1'000'000;
 constexpr Color bin_color{128, 128, 128};
 
-// Vivid and neither dark nor pale: set apart from the bin's grey and from black, and room for millions. Of a
-// grid of such bounds these, with this first hue, keep the first twenty colours the furthest apart in CIELAB
-// (the nearest two by a ΔE of 21).
+// Vivid, and neither dark nor pale, to stand out from the bin's grey and from black; there is room for
+// millions. In a grid search, these bounds and first hue kept the first twenty colours farthest apart in
+// CIELAB (ΔE of the nearest two: 21).
 constexpr double first_hue = 0.35;
 constexpr double least_saturation = 0.6;
 constexpr double most_saturation = 0.9;
@@ -34,12 +34,12 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-// Plain arithmetic, unlike std::lerp, and so the same with every standard library.
+// Plain arithmetic, unlike std::lerp, so that every standard library gives the same result.
 double between(double low, double high, double t) {
   return low + t * (high - low);
 }
 
-// The van der Corput sequence: the digits of i mirrored at the radix point (Niederreiter 1992,
+// The van der Corput sequence: the digits of i, mirrored at the radix point (Niederreiter 1992,
 // Definition 3.1).
 double van_der_corput(unsigned i, unsigned base) {
   double result = 0.0;
@@ -64,7 +64,7 @@ Color from_hsv(double hue, double saturation, double value) {
   return {channel(5.0), channel(3.0), channel(1.0)};
 }
 
-// The i-th of an endless sequence of well-spread colours; a few come back.
+// The i-th of an infinite sequence of well-spread colours; a few repeat.
 Color candidate(unsigned i) {
   const double saturation = between(least_saturation, most_saturation, van_der_corput(i, 2));
   const double value = between(least_value, most_value, van_der_corput(i, 3));
@@ -80,7 +80,7 @@ std::vector<Color> label_colors(int tubes) {
   const auto size = static_cast<std::size_t>(tubes) + 1;
   std::vector<Color> colors{bin_color};
   colors.reserve(size);
-  std::vector<bool> taken(std::size_t{1} << 24);  // a bit for each colour there is
+  std::vector<bool> taken(std::size_t{1} << 24);  // one bit per possible colour
   for (unsigned i = 1; colors.size() < size; ++i) {
     const Color color = candidate(i);
     if (taken[packed(color)]) continue;

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 using FeatureVector = Eigen::Matrix<double, link_features, 1>;
 
-/// Where the fragments of a model are on the true tubes.
+/// Where the fragments of a model lie on the true tubes.
 class TrueLinks {
 public:
   TrueLinks(const CaseData& data, const std::vector<std::size_t>& filtered,
@@ -50,17 +50,17 @@ public:
   }
 
 private:
-  // Whether the way out of a fragment's end is the way along the tube to another fragment.
+  // True if the direction out of a fragment's end leads along the tube to another fragment.
   bool leads(const CentreLine& line, const FragmentEnd& end, std::size_t from, std::size_t to) const {
-    constexpr double outward = 0.004;  // m, enough to tell the two ends of the shortest fragment apart
+    constexpr double outward = 0.004;  // m, enough to distinguish the two ends of the shortest fragment
     const Place place = line.nearest(fragments_[from].nodes[end.node] + outward * end.outward).place;
     return line.way(place, middles_[to]) < line.way(middles_[from], middles_[to]);
   }
 
-  // Whether the tube leads from the end straight to the junction, not by another one.
+  // True if the tube leads directly from the end to the junction, not by way of another one.
   bool is_as_near_as_it_seems(const CentreLine& line, const Link& link) const {
-    constexpr double stretch = 1.3;  // a bent way is longer than the gap, by so much ...
-    constexpr double slack = 0.005;  // ... and so many m
+    constexpr double stretch = 1.3;  // a bent path is longer than the gap by up to this factor ...
+    constexpr double slack = 0.005;  // ... plus this many m
     const Place end = line.nearest(fragments_[link.fragment].ends[link.end].position).place;
     const Place junction = line.nearest(link.to.position).place;
     return line.way(end, junction) <= stretch * link.gap + slack;
@@ -79,8 +79,8 @@ private:
 
   const std::vector<Fragment>& fragments_;
   std::map<std::int32_t, CentreLine> lines_;
-  std::vector<std::int32_t> tubes_;  // the true label of most points of each fragment
-  std::vector<Place> middles_;       // of each fragment on its tube; of one on none, nothing
+  std::vector<std::int32_t> tubes_;  // for each fragment, the true label of most of its points
+  std::vector<Place> middles_;       // of each fragment on its tube; unused if it is on none
 };
 
 // The weights of all kinds, one after the other.
@@ -100,7 +100,7 @@ Eigen::Map<const FeatureVector> features_of(const LinkExample& link) {
   return Eigen::Map<const FeatureVector>(link.features.data());
 }
 
-// ln Σ exp, by the greatest, so that none overflows.
+// ln Σ exp, relative to the largest term to avoid overflow.
 double log_of_sum(const std::vector<double>& log_odds) {
   const double greatest = std::ranges::max(log_odds);
   double sum = 0;
@@ -108,9 +108,9 @@ double log_of_sum(const std::vector<double>& log_odds) {
   return greatest + std::log(sum);
 }
 
-/// The log likelihood of what the ends choose, its slope, and its curvature without the share of the choice
-/// between several true links, which would make it indefinite. A little of the weights' square keeps them
-/// finite.
+/// The log likelihood of the ends' choices, with its gradient and curvature. The curvature omits the
+/// contribution of the choice between several true links, which would make it indefinite. A small penalty on
+/// the squared weights keeps them finite.
 struct Likelihood {
   double value = 0;
   Vector slope = Vector::Zero();
@@ -127,7 +127,7 @@ private:
   static constexpr double ridge = 1e-3;
 
   void add(const EndExample& end, const Vector& weights) {
-    std::vector<double> log_odds = {0};  // of no link, and of each
+    std::vector<double> log_odds = {0};  // of no link, then of each link
     std::vector<double> log_odds_of_true;
     for (const LinkExample& link : end) {
       log_odds.push_back(of_kind(weights, link.kind).dot(features_of(link)));
@@ -188,7 +188,7 @@ LinkWeights learn_weights(const std::vector<EndExample>& ends) {
   Vector weights = Vector::Zero();
   Likelihood likelihood(ends, weights);
   for (int i = 0; i < steps_max; ++i) {
-    // Newton's step, or as much of it as does not overshoot.
+    // Newton's step, shortened so that it does not overshoot.
     Vector step = likelihood.curvature.ldlt().solve(likelihood.slope);
     Likelihood next(ends, weights + step);
     while (next.value < likelihood.value && !is_small(step)) {

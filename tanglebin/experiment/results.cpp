@@ -30,7 +30,7 @@ fs::path times_of(const fs::path& directory) {
   return directory / "times.jsonl";
 }
 
-// Between the lines of a case in the journal; JSON escapes a tab inside.
+// Separates the lines of a case in the journal; inside the lines, JSON escapes tabs.
 constexpr char separator = '\t';
 
 Json run_json(const RunId& run) {
@@ -67,13 +67,13 @@ void add_journal_line(FinishedRuns& finished, const std::string& line, const std
   std::string times;
   while (std::getline(parts, result, separator)) {
     if (!std::getline(parts, times, separator))
-      throw InputError({file, number, ""}, "a result without times", "both, a tab between them");
+      throw InputError({file, number, ""}, "a result without times", "both, separated by a tab");
     add_result(finished, result, file, number);
     add_times(finished, times, file, number);
   }
 }
 
-// What the results follow from.
+// Everything that the results depend on.
 Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings) {
   Json json{{"version", TANGLEBIN_VERSION}, {"dataset_seed", dataset.recipe.seed}};
   json["methods"] = Json::array();
@@ -85,13 +85,13 @@ Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings)
   return json;
 }
 
-// The text of experiment.json, which says besides how many cases there are results of.
+// The text of experiment.json, which also has the number of cases with results.
 std::string experiment_text(Json experiment, std::size_t cases) {
   experiment["cases"] = cases;
   return experiment.dump() + '\n';
 }
 
-// Calls `take` with every run of the experiment in the order of the results' lines.
+// Calls `take` with every run of the experiment, in the order of the results' lines.
 void for_each_run(const std::vector<CaseId>& cases, const ExperimentSettings& settings,
                   const std::function<void(const RunId&)>& take) {
   for (const Method method : settings.methods)

@@ -17,37 +17,37 @@ struct RunResult {
   std::string json;
 };
 
-/// The lines of a run (docs/formats.md), without the line's end.
+/// The lines for a run (docs/formats.md), without a line end.
 std::string result_json(const RunId& run, const Model& model, const ModelScore& score);
 std::string times_json(const RunId& run, const Model& model, double seconds);
 
-/// The journal's line for a case: result_json() and times_json() of each of its runs.
+/// The journal line for a case: result_json() and times_json() for each of its runs.
 std::string journal_line(const std::vector<std::string>& lines);
 
-/// What is known of the runs that are finished.
+/// The results of the finished runs.
 struct FinishedRuns {
   std::map<RunId, RunResult> results;
   std::map<RunId, std::string> times;  ///< lines of times.jsonl
 
-  /// Whether all of a case's runs are.
+  /// True if all runs of a case are finished.
   bool has(const CaseId& id, const ExperimentSettings& settings) const;
 };
 
-/// What results, times and journal of a results' directory say. A last line of the journal that was cut off
-/// is passed over; throws InputError for any other that cannot be read.
+/// Reads the results, times and journal of a results directory. A truncated last line of the journal is
+/// ignored. Throws InputError for any other line that cannot be read.
 FinishedRuns finished_runs(const std::filesystem::path& directory);
 
-/// Writes experiment.json where the directory has none. Throws InputError where its experiment.json is that
-/// of another experiment, naming the difference, or where it is a dataset's.
+/// Writes experiment.json if the directory has none. Throws InputError if the directory belongs to another
+/// experiment, naming the difference, or to a dataset.
 void claim(const std::filesystem::path& directory, const Dataset& dataset,
            const ExperimentSettings& settings);
 
-/// Writes experiment.json, results.jsonl, times.jsonl and generation.jsonl, runs in order of method, case and
-/// ratio.
+/// Writes experiment.json, results.jsonl, times.jsonl and generation.jsonl, with runs in order of method,
+/// case and ratio.
 void write_results(const std::filesystem::path& directory, const Dataset& dataset,
                    const ExperimentSettings& settings, const FinishedRuns& finished);
 
-/// The lines of results.jsonl. Throws InputError for one that cannot be read.
+/// The lines of results.jsonl. Throws InputError for a line that cannot be read.
 std::vector<RunResult> read_results(const std::filesystem::path& directory);
 
 }  // namespace tanglebin

@@ -49,7 +49,7 @@ Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run,
   ModelSettings model = settings.model;
   model.method = run.method;
   model.ratio = run.ratio;
-  constexpr int no_attempt = 0;  // of a scene's: these count from 1, so the model's seed is never one of them
+  constexpr int no_attempt = 0;  // scenes' attempts count from 1, so their seeds differ from the model's
   model.seed = attempt_seed(settings.model.seed, id.set, id.tubes, id.number, no_attempt);
   return with_file(data.cloud_file,
                    [&] { return model_tubes(data.cloud, known_scene(recipe_of(dataset, id), id), model); });
@@ -58,8 +58,7 @@ Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run,
 ModelScore score_model(const CaseData& data, const Model& model) {
   const std::vector<std::int32_t> truth = picked(truth_labels(data.cloud, data.cloud_file), model.filtered);
   if (std::ranges::none_of(truth, [](std::int32_t label) { return label > bin_label; })) {
-    throw InputError({data.cloud_file, 0, ""}, "no point of a tube among those that the method's filter left",
-                     "at least one");
+    throw InputError({data.cloud_file, 0, ""}, "no point on a tube is left after filtering");
   }
   return {score(truth, picked(model.labels, model.filtered)), score_tubes(data.tubes, model.tubes)};
 }

@@ -11,14 +11,14 @@
 
 namespace tanglebin {
 
-/// What is tried on every case: each method with each ratio.
+/// What to run on every case: each method with each ratio.
 struct ExperimentSettings {
-  std::vector<Method> methods = tanglebin::methods();  ///< as methods() orders them, without repetition
+  std::vector<Method> methods = tanglebin::methods();  ///< in the order of methods(), without duplicates
   std::vector<double> ratios;                          ///< ascending, each in (0, 1]
-  ModelSettings model{};  ///< its seed is mixed with each case's name; method and ratio are ignored
+  ModelSettings model{};  ///< its seed is combined with each case's name; method and ratio are ignored
 };
 
-/// One of these trials.
+/// Identifies one run.
 struct RunId {
   Method method;
   CaseId scene;
@@ -28,30 +28,30 @@ struct RunId {
   auto operator<=>(const RunId&) const = default;
 };
 
-/// What the recipe of a case tells of its scene: the bin, the camera, and of each kind of tubes the radius
-/// and the segments; kinds of one radius are taken for the one of the most segments, of these the longest.
+/// The scene as known from the recipe of a case: the bin, the camera, and radius and segments of each kind of
+/// tube. Of kinds with the same radius, the one with the most segments counts; among these, the longest.
 KnownScene known_scene(const Recipe& recipe, const CaseId& id);
 
-/// Models the tubes of a run's case, whose bin, camera, radius and length the recipe tells. The model's seed
-/// follows from (settings.model.seed, set, number of tubes, case) alone. Throws InputError as model_tubes()
-/// does, naming the case's cloud.
+/// Models the tubes of a run's case, with the known scene from the recipe. The model's seed depends only on
+/// (settings.model.seed, set, number of tubes, case). Throws InputError as model_tubes() does, naming the
+/// case's cloud.
 Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run,
                  const ExperimentSettings& settings);
 
 /// How good a model is.
 struct ModelScore {
-  Score labels;  ///< of the points of Model::filtered alone (paper, Section 5)
+  Score labels;  ///< of the points in Model::filtered only (paper, Section 5)
   TubesScore tubes;
 };
 
-/// Throws InputError naming the case's cloud where the filter left no point of a tube.
+/// Throws InputError naming the case's cloud if the filter left no point on a tube.
 ModelScore score_model(const CaseData& data, const Model& model);
 
-/// The points of Model::filtered as the truth has them and as the model has them.
+/// The points of Model::filtered with their true and their modelled labels.
 struct ComparedClouds {
   PointCloud truth;
-  PointCloud labels;  ///< a tube's label is that of the true tube it is assigned to; those assigned to none
-                      ///< have the labels after the largest true one
+  PointCloud labels;  ///< with the label of the true tube that each modelled tube is assigned to; unassigned
+                      ///< ones get labels after the largest true one
 };
 ComparedClouds compared_clouds(const CaseData& data, const Model& model);
 

@@ -13,7 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// All runs of one case; returns what the journal is to have of them.
+// Runs everything for one case; returns its journal line.
 std::string run_case(const Dataset& dataset, const ExperimentSettings& settings, const CaseId& id) {
   const CaseData data = read_case(dataset, id);
   std::vector<std::string> lines;

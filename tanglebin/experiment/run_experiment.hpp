@@ -15,23 +15,22 @@ struct FailedModel {
   std::string reason;
 };
 
-/// What a call of run_experiment() came to.
+/// The outcome of run_experiment().
 struct ExperimentSummary {
-  RunProgress progress;  ///< a case is made when all of its runs are
+  RunProgress progress;  ///< a case counts as made when all of its runs are
   std::vector<FailedModel> failed;
 
   bool is_complete() const { return progress.found + progress.made == progress.wanted; }
   bool was_stopped() const { return progress.found + progress.made + progress.failed < progress.wanted; }
 };
 
-/// Models and scores the wanted cases of the dataset, which are there, with every method and ratio, in `jobs`
-/// processes, and leaves in `directory` experiment.json, results.jsonl, times.jsonl and generation.jsonl
-/// (docs/formats.md). Cases whose results are there already stay as they are, so a run that was stopped goes
-/// on where it was, and more cases may be added. The bytes of results.jsonl depend on dataset, settings and
-/// cases alone. A case that ends its worker twice is given up, and the others go on. Returns early, with what
-/// is done, on SIGINT and SIGTERM. Throws InputError where `directory` belongs to another experiment, to a
-/// dataset or to a run that is under way, where a file of a case is missing or has changed, and where a file
-/// cannot be written.
+/// Models and scores the wanted cases, which the dataset must have, with every method and ratio in `jobs`
+/// processes. Writes experiment.json, results.jsonl, times.jsonl and generation.jsonl (docs/formats.md) to
+/// `directory`. Existing results are kept, so an interrupted run can be resumed and cases can be added. The
+/// bytes of results.jsonl depend only on dataset, settings and cases. A case that crashes its worker twice is
+/// recorded as failed, and the run goes on. Returns early, with what is done, on SIGINT and SIGTERM. Throws
+/// InputError if `directory` belongs to another experiment, to a dataset or to a run in progress, if a file
+/// of a case is missing or has changed, and if a file cannot be written.
 ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSettings& settings,
                                  const std::vector<CaseId>& wanted, const std::filesystem::path& directory,
                                  int jobs, const RunObserver& observer = {});

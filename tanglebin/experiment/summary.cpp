@@ -8,7 +8,8 @@ namespace tanglebin {
 
 double ratio_to_show(const std::vector<double>& ratios) {
   return std::ranges::min(ratios, {}, [](double ratio) {
-    // Of 0.2 and 0.4 neither is the nearer; their doubles' differences are not quite the same.
+    // Compares in billionths: 0.2 and 0.4 are equally near to 0.3, but the differences of the doubles are not
+    // equal.
     constexpr double billion = 1e9;
     return std::llround(std::abs(ratio - figure_ratio) * billion);
   });

@@ -8,13 +8,13 @@
 
 namespace tanglebin {
 
-/// The ratio that the paper's Figure 8 compares numbers of tubes at.
+/// The ratio at which the paper's Figure 8 compares numbers of tubes.
 inline constexpr double figure_ratio = 0.3;
 
-/// The one of the ratios (at least one) that is nearest to figure_ratio; of two, the smaller.
+/// The ratio nearest to figure_ratio, of at least one; the smaller of two at the same distance.
 double ratio_to_show(const std::vector<double>& ratios);
 
-/// The mean over the cases of one method, set and number of tubes.
+/// The mean over the cases with the same method, set and number of tubes.
 struct MeanMicroRecall {
   Method method;
   std::string set;
@@ -26,14 +26,14 @@ struct MeanMicroRecall {
 /// The means at one ratio, in the order of the results.
 std::vector<MeanMicroRecall> mean_micro_recalls(const std::vector<RunResult>& results, double ratio);
 
-/// A run that stands for its method.
+/// A run chosen to represent its method.
 struct Example {
   std::string rank;  ///< "best", "median" or "worst"
   RunResult result;
 };
 
-/// The runs of the highest, median and lowest micro-recall of a method at one ratio; of several the first, of
-/// two medians the lower. None where there are no such runs.
+/// The runs with the highest, median and lowest micro-recall of a method at one ratio: the first of several,
+/// the lower of two medians. Empty if there are no such runs.
 std::vector<Example> examples(const std::vector<RunResult>& results, Method method, double ratio);
 
 }  // namespace tanglebin

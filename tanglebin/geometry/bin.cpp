@@ -13,8 +13,7 @@ namespace tanglebin {
 Bin bin_preset(std::string_view name) {
   if (name == "paper") return Bin{};
   if (name == "published") return Bin{.length = 0.80, .width = 0.60};
-  throw InputError({.file = "", .line = 0, .field = "bin"}, excerpt(name),
-                   "paper or published");
+  throw InputError({.file = "", .line = 0, .field = "bin"}, excerpt(name), "paper or published");
 }
 
 std::array<Eigen::AlignedBox3d, 5> boxes(const Bin& bin) {
@@ -24,7 +23,7 @@ std::array<Eigen::AlignedBox3d, 5> boxes(const Bin& bin) {
   const double y = bin.width / 2;
   const double x_out = x + bin.wall;
   const double y_out = y + bin.wall;
-  // The floor reaches under the walls; the walls across x reach over the ends of those across y.
+  // The floor extends under the walls; the walls across x cover the ends of those across y.
   return {Box(Vector3d(-x_out, -y_out, -bin.wall), Vector3d(x_out, y_out, 0)),
           Box(Vector3d(-x_out, -y_out, 0), Vector3d(-x, y_out, bin.height)),
           Box(Vector3d(x, -y_out, 0), Vector3d(x_out, y_out, bin.height)),

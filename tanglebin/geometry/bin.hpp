@@ -15,14 +15,14 @@ struct Bin {
   double friction = 100;  ///< Coulomb coefficient of a tube against the bin
 };
 
-/// "paper" (0.55 x 0.37 x 0.20 m, Section 6.1) or "published" (0.80 x 0.60 x 0.20 m, as the published worlds
-/// have it). Throws InputError for another name.
+/// "paper" (0.55 x 0.37 x 0.20 m, Section 6.1) or "published" (0.80 x 0.60 x 0.20 m, as in the published
+/// worlds). Throws InputError for any other name.
 Bin bin_preset(std::string_view name);
 
-/// Floor, then the walls at −x, +x, −y, +y. They touch but do not overlap; together they are the bin.
+/// The floor, then the walls at −x, +x, −y, +y. They touch without overlapping; together they form the bin.
 std::array<Eigen::AlignedBox3d, 5> boxes(const Bin& bin);
 
-/// Throws InputError naming the field under `bin` that is not a finite positive number.
+/// Throws InputError naming the field under `bin` unless every number is finite and positive.
 void validate(const Bin& bin);
 
 }  // namespace tanglebin

@@ -43,7 +43,7 @@ Camera downward_camera(int width, int height, double focal_length_px, const Vect
   camera.fx = camera.fy = focal_length_px;
   camera.cx = (width - 1) / 2.0;
   camera.cy = (height - 1) / 2.0;
-  // z down and x along the world's x leave −y of the world for the image's y.
+  // With z down and x along the world's x, the image's y is the world's −y.
   camera.pose.linear() = Vector3d(1, -1, -1).asDiagonal();
   camera.pose.translation() = position;
   return camera;
@@ -80,7 +80,7 @@ std::optional<Vector2d> project(const Camera& camera, const Vector3d& point) {
 std::optional<PixelPosition> pixel_of(const Camera& camera, const Vector3d& point) {
   const std::optional<Vector2d> image = project(camera, point);
   if (!image) return std::nullopt;
-  // A pixel reaches half a pixel to each side of its centre.
+  // A pixel extends half a pixel to each side of its centre.
   const Vector2d from_corner = image->array() + 0.5;
   const bool is_inside = from_corner.x() >= 0 && from_corner.y() >= 0 && from_corner.x() < camera.width &&
                          from_corner.y() < camera.height;

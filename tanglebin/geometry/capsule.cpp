@@ -26,11 +26,12 @@ SegmentPair closest_points(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
   const double pr = p.dot(r);
   const double qr = q.dot(r);
 
-  // The parameter on one segment that is nearest to a given point of the other; a point segment has only 0.
+  // The parameter of the point on one segment nearest to a given point of the other; 0 if the segment is a
+  // point.
   const auto nearest_on_p = [&](double t) { return pp > 0 ? std::clamp((pq * t - pr) / pp, 0.0, 1.0) : 0.0; };
   const auto nearest_on_q = [&](double s) { return qq > 0 ? std::clamp((pq * s + qr) / qq, 0.0, 1.0) : 0.0; };
 
-  const double determinant = pp * qq - pq * pq;  // 0 for parallel segments: any s will do to start from
+  const double determinant = pp * qq - pq * pq;  // 0 for parallel segments: any s will do as a start
   double s = determinant > 0 ? std::clamp((pq * qr - qq * pr) / determinant, 0.0, 1.0) : 0.0;
   const double t = nearest_on_q(s);
   s = nearest_on_p(t);

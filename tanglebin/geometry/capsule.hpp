@@ -4,20 +4,20 @@
 
 namespace tanglebin {
 
-/// All points within `radius` of the segment a–b: a cylinder with a hemisphere at each end. Metres.
+/// All points within `radius` of the segment a–b: a cylinder with a hemisphere at each end. In metres.
 struct Capsule {
   Eigen::Vector3d a;
   Eigen::Vector3d b;
   double radius;
 };
 
-/// Where the axis is nearest to a point: at a + t (b − a), t in [0, 1].
+/// Parameter t in [0, 1] of the point a + t (b − a) on the axis that is nearest to a point.
 double nearest_on_axis(const Capsule& capsule, const Eigen::Vector3d& point);
 
 /// The distance of a point from the axis, m.
 double axis_distance(const Capsule& capsule, const Eigen::Vector3d& point);
 
-/// The closest points of two segments p0–p1 and q0–q1: p0 + s (p1 − p0) and q0 + t (q1 − q0), with s and t
+/// The closest points of two segments p0–p1 and q0–q1, at p0 + s (p1 − p0) and q0 + t (q1 − q0) with s and t
 /// in [0, 1].
 struct SegmentPair {
   double distance;
@@ -25,12 +25,12 @@ struct SegmentPair {
   double t;
 };
 
-/// Closest points of two segments, each of which may be a point (Ericson, Real-Time Collision
-/// Detection, 5.1.9).
+/// Closest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9). A segment may have length
+/// 0.
 SegmentPair closest_points(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
                            const Eigen::Vector3d& q1);
 
-/// Distance between the surfaces of two capsules; negative: how deep they overlap.
+/// Distance between the surfaces of two capsules, m; if they overlap, minus the depth of the overlap.
 double surface_distance(const Capsule& first, const Capsule& second);
 
 }  // namespace tanglebin

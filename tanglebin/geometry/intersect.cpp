@@ -10,14 +10,14 @@ namespace {
 using Eigen::Vector3d;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The part of a line inside a convex solid; empty where enter > leave.
+/// The part of a line inside a convex solid; empty if enter > leave.
 struct Interval {
   double enter;
   double leave;
 };
 constexpr Interval nothing = {infinity, -infinity};
 
-/// Where start + t direction, a unit vector, lies in the sphere around the origin.
+/// The part of the line start + t direction (a unit vector) inside the sphere around the origin.
 Interval inside_sphere(const Vector3d& start, const Vector3d& direction, double radius) {
   const double middle = -start.dot(direction);
   const double half_chord2 = radius * radius - (start + middle * direction).squaredNorm();
@@ -35,16 +35,16 @@ std::optional<SurfaceHit> ray_capsule(const Ray& ray, const Capsule& capsule) {
   const Vector3d centre = 0.5 * (capsule.a + capsule.b);
   const double h2 = half_axis.squaredNorm();
 
-  // Measured from the ray's point closest to the capsule's centre, the numbers below are as small as the
-  // capsule, however far the ray's origin is, and cancel little.
+  // Measured from the ray's point closest to the capsule's centre, the numbers below are no larger than the
+  // capsule, however far away the ray starts, so there is little cancellation.
   const double shift = (centre - ray.origin).dot(d);
   const Vector3d start = ray.origin + shift * d - centre;
   const auto inside_end = [&](double side) {
     return inside_sphere(start - std::copysign(1.0, side) * half_axis, d, radius);
   };
 
-  // Inside the infinite cylinder |(start + t d) x h| <= radius |h|, h the half axis. With n = d x h this is
-  // n² t² + 2 t (start x h)·n + (start x h)² <= radius² h², and the discriminant is h² (radius² n² −
+  // Inside the infinite cylinder |(start + t d) x h| <= radius |h|, where h is the half axis. With n = d x h
+  // this is n² t² + 2 t (start x h)·n + (start x h)² <= radius² h², and the discriminant is h² (radius² n² −
   // (start·n)²).
   const Vector3d n = d.cross(half_axis);
   const double n2 = n.squaredNorm();
@@ -57,14 +57,14 @@ std::optional<SurfaceHit> ray_capsule(const Ray& ray, const Capsule& capsule) {
     const double middle = -start.cross(half_axis).dot(n) / n2;
     const double half_chord = std::sqrt(h2 * reduced_discriminant) / n2;
     t = {middle - half_chord, middle + half_chord};
-    // Who crosses the cylinder's surface beyond an end meets the capsule in that end's sphere, if at all.
+    // A ray that crosses the cylinder's surface beyond an end can only meet the capsule in that end's sphere.
     const auto height = [&](double at) { return (start + at * d).dot(half_axis); };
     const double enter_height = height(t.enter);
     const double leave_height = height(t.leave);
     if (std::abs(enter_height) > h2) t.enter = inside_end(enter_height).enter;
     if (std::abs(leave_height) > h2) t.leave = inside_end(leave_height).leave;
   } else {
-    // Along the axis, or the capsule is a sphere: only the spheres at the ends can be met.
+    // The ray runs along the axis, or the capsule is a sphere: it can only meet the spheres at the ends.
     const Interval first = inside_end(-1);
     const Interval second = inside_end(1);
     t = {std::min(first.enter, second.enter), std::max(first.leave, second.leave)};

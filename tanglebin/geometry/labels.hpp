@@ -5,6 +5,6 @@
 namespace tanglebin {
 
 inline constexpr std::int32_t bin_label = 0;    ///< the bin; tubes are 1, 2, …
-inline constexpr std::int32_t null_label = -1;  ///< not labelled; in a scan: the ray hit nothing
+inline constexpr std::int32_t null_label = -1;  ///< unlabelled; in a scan: the ray hit nothing
 
 }  // namespace tanglebin

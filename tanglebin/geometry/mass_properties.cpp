@@ -8,12 +8,12 @@
 #include <numbers>
 #include <vector>
 
-// The solid is cut into thin rods. Each capsule is a bundle of rods parallel to its axis; a rod ends at the
-// capsule's surface and leaves out what earlier capsules fill. Where rods end is exact, so the quadrature is
-// over the capsule's cross-section alone: with c = √(1 − ρ²/r²), the area element is r² c dc dφ, and the
-// moments of a lone capsule are polynomials in c, cos φ and sin φ that the rule below integrates exactly.
-// Error, from twenty-five times as many rods on 200 tubes each: volume and inertia of the paper's chains
-// within 0.0001 %, of trees and of chains that fold back on themselves within 0.04 %; centre within 0.03 mm.
+// Each capsule is cut into thin rods parallel to its axis. A rod ends at the capsule's surface and leaves out
+// what earlier capsules fill. The ends of the rods are exact, so the quadrature is only over the capsule's
+// cross-section. With c = √(1 − ρ²/r²), the area element is r² c dc dφ, and the moments of a single capsule
+// are polynomials in c, cos φ and sin φ that the rule below integrates exactly. Error, compared with
+// twenty-five times as many rods on 200 tubes of each sort: volume and inertia within 0.0001 % for the
+// paper's chains and within 0.04 % for trees and chains that fold back on themselves; centre within 0.03 mm.
 
 namespace tanglebin {
 namespace {
@@ -28,7 +28,7 @@ struct Line {
   Eigen::Vector3d direction;  // unit
 };
 
-// From low to high along a line; nothing where high < low.
+// The part of a line from low to high; empty if high < low.
 struct Interval {
   double low = infinity;
   double high = -infinity;
@@ -44,7 +44,7 @@ Interval hull(const Interval& a, const Interval& b) {
   return {std::min(a.low, b.low), std::max(a.high, b.high)};
 }
 
-// Where a t² + 2 b t + c ≤ 0, for a ≥ 0.
+// The solutions of a t² + 2 b t + c ≤ 0, for a ≥ 0.
 Interval below_zero(double a, double b, double c) {
   constexpr double parallel = 1e-12;
   if (a < parallel) return c <= 0 ? Interval{-infinity, infinity} : Interval{};
@@ -59,7 +59,7 @@ Interval inside_sphere(const Line& line, const Eigen::Vector3d& centre, double r
   return below_zero(1, offset.dot(line.direction), offset.squaredNorm() - radius * radius);
 }
 
-// Between the planes through a and b across a–b.
+// The part of a line between the planes through a and b perpendicular to a–b.
 Interval inside_slab(double slope, double start, double length) {
   if (slope == 0) return start >= 0 && start <= length ? Interval{-infinity, infinity} : Interval{};
   const double at_a = -start / slope;
@@ -81,13 +81,13 @@ Interval inside_cylinder(const Line& line, const Capsule& capsule) {
                                  across_offset.squaredNorm() - capsule.radius * capsule.radius));
 }
 
-// A capsule is convex: a line meets it in one interval, whatever parts of it the line passes.
+// A capsule is convex, so its intersection with a line is a single interval, whichever parts the line passes.
 Interval inside_capsule(const Line& line, const Capsule& capsule) {
   return hull(inside_cylinder(line, capsule), hull(inside_sphere(line, capsule.a, capsule.radius),
                                                    inside_sphere(line, capsule.b, capsule.radius)));
 }
 
-// Volume and its first and second moments.
+// Volume, with its first and second moments.
 struct Moments {
   double volume = 0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
@@ -104,7 +104,7 @@ struct Moments {
   }
 };
 
-// Adds the part of a rod that is in none of the `filled` capsules.
+// Adds the parts of a rod that are in none of the `filled` capsules.
 void add_free_parts(const Line& line, const Interval& rod, double area, const std::vector<Capsule>& filled,
                     std::vector<Interval>& taken, Moments& moments) {
   taken.clear();
@@ -121,7 +121,7 @@ void add_free_parts(const Line& line, const Interval& rod, double area, const st
   if (low < rod.high) moments.add_rod(line, low, rod.high, area);
 }
 
-// Adds one capsule less the `filled` ones; `origin` is where moments are taken about.
+// Adds one capsule without the `filled` ones. Moments are about `origin`.
 void add_capsule(const Tube& tube, const Edge& edge, const Eigen::Vector3d& origin,
                  const std::vector<Capsule>& filled, Moments& moments) {
   const Eigen::Matrix3d axes = edge.rotation.toRotationMatrix();
@@ -137,7 +137,7 @@ void add_capsule(const Tube& tube, const Edge& edge, const Eigen::Vector3d& orig
                      moments);
     }
   };
-  for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {  // the rule is on [−1, 1], c in [0, 1]
+  for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {  // the rule is on [−1, 1], but c is in [0, 1]
     const double weight = Rule::weights()[i] / 2;
     add_ring((1 - Rule::abscissa()[i]) / 2, weight);
     add_ring((1 + Rule::abscissa()[i]) / 2, weight);
@@ -147,7 +147,7 @@ void add_capsule(const Tube& tube, const Edge& edge, const Eigen::Vector3d& orig
 }  // namespace
 
 MassProperties mass_properties(const Tube& tube) {
-  const Eigen::Vector3d origin = tube.nodes.front().position;  // near the tube, so that no digits cancel
+  const Eigen::Vector3d origin = tube.nodes.front().position;  // near the tube, to avoid cancellation
   std::vector<Capsule> all = capsules(tube);
   for (Capsule& capsule : all) capsule = {capsule.a - origin, capsule.b - origin, capsule.radius};
 

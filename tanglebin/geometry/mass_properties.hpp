@@ -15,8 +15,8 @@ struct MassProperties {
 };
 
 /// Mass properties of the tube as a uniform solid of mass tube.mass that fills the union of its capsules.
-/// Space that several capsules share counts once. By quadrature; error documented in mass_properties.cpp and
-/// held by a test.
+/// Overlapping space counts once. By quadrature; mass_properties.cpp documents the error and a test checks
+/// it.
 MassProperties mass_properties(const Tube& tube);
 
 }  // namespace tanglebin

@@ -15,8 +15,8 @@ std::optional<std::string_view> CloudInput::next_line() {
   auto length = static_cast<std::size_t>(stream_.gcount());
   if (stream_.fail() && length == 0) return std::nullopt;
   ++line_;
-  if (stream_.fail()) throw InputError(place(), fmt::format("line of more than {} bytes", length));
-  if (!stream_.eof()) --length;  // the line feed, counted but not stored
+  if (stream_.fail()) throw InputError(place(), fmt::format("line longer than {} bytes", length));
+  if (!stream_.eof()) --length;  // the line feed is counted but not stored
   std::string_view line(buffer_.data(), length);
   if (line.ends_with('\r')) line.remove_suffix(1);
   return line;
@@ -46,7 +46,7 @@ std::size_t CloudInput::remaining() {
 }
 
 std::ifstream open_cloud(const std::filesystem::path& file) {
-  // Linux opens a directory for reading without complaint.
+  // Linux lets you open a directory for reading.
   if (std::filesystem::is_directory(file)) throw InputError({file.string(), 0, ""}, "is a directory");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {

@@ -11,37 +11,37 @@
 
 #include "tanglebin/base/error.hpp"
 
-// Internal to the room: what read_ply() and read_pcd() read from.
+// Internal to the room: input of read_ply() and read_pcd().
 namespace tanglebin::cloud_format {
 
-/// A cloud file while it is read: a text header, then text or binary data. May be a pipe, and never takes
-/// more memory than the data that is really there calls for.
+/// A cloud file that is being read: a text header, then text or binary data. May be a pipe. Uses memory only
+/// in proportion to the data actually present.
 class CloudInput {
 public:
   CloudInput(std::istream& stream, std::string file) : stream_(stream), file_(std::move(file)) {}
 
-  /// The next line without its end (LF or CRLF), valid until the next call; none at the end of the file.
-  /// Throws InputError for a line longer than any that makes sense: binary data, or an endless stream.
+  /// The next line without its LF or CRLF, valid until the next call. None at the end of the file. Throws
+  /// InputError for an implausibly long line (binary data, or an endless stream).
   std::optional<std::string_view> next_line();
 
   /// Reads up to `size` bytes; fewer only at the end of the file.
   std::size_t read(std::byte* to, std::size_t size);
 
-  /// Passes over up to `size` bytes; fewer only at the end of the file.
+  /// Skips up to `size` bytes; fewer only at the end of the file.
   std::size_t skip(std::size_t size);
 
   bool at_end();
 
-  /// Bytes to come, as far as that is known: 0 for a pipe.
+  /// Remaining bytes; 0 if unknown (a pipe).
   std::size_t remaining();
 
   const std::string& file() const { return file_; }
   std::size_t line() const { return line_; }
 
-  /// The line read last, for an error in it.
+  /// The line read last, for an error message.
   InputPlace place(std::string field = "") const { return {file_, line_, std::move(field)}; }
 
-  /// The file as a whole, or one of its values that is on no line.
+  /// The file as a whole, or a value that is not on a line.
   InputPlace place_in_file(std::string field = "") const { return {file_, 0, std::move(field)}; }
 
 private:
@@ -51,7 +51,7 @@ private:
   std::array<char, 1 << 16> buffer_;
 };
 
-/// Opens a file for reading; throws InputError where that is not possible.
+/// Opens a file for reading. Throws InputError if it cannot.
 std::ifstream open_cloud(const std::filesystem::path& file);
 
 }  // namespace tanglebin::cloud_format

@@ -27,8 +27,8 @@
 namespace tanglebin {
 namespace {
 
-// How far an edge may be from what its nodes say. The published files have six digits, which put their edges
-// up to 2 µm, 0.005° and 1e-6 off.
+// How far an edge may deviate from its nodes. The published files have six digits, so their edges are off by
+// up to 2 µm, 0.005° and 1e-6.
 constexpr double length_tolerance = 1e-4;                         // m
 constexpr double angle_tolerance = 0.5 * std::numbers::pi / 180;  // rad
 constexpr double unit_tolerance = 1e-4;                           // of a quaternion's norm
@@ -36,12 +36,12 @@ constexpr double unit_tolerance = 1e-4;                           // of a quater
 constexpr std::string_view node_fields = "id x y z radius";
 constexpr std::string_view edge_fields = "name n1 n2 order radius cx cy cz qw qx qy qz length";
 
-/// The lines of the file one after the other, their fields by number, and errors that know where they are.
+/// Reads the file line by line and its fields by index, and throws errors with their position.
 class LineReader {
 public:
   LineReader(std::istream& in, const std::string& name) : in_(in), name_(name) {}
 
-  /// Goes on to the next line, which must have the fields that `layout` lists.
+  /// Advances to the next line, which must have the fields listed in `layout`.
   void expect_line(const std::string& what, std::string_view layout) {
     const std::size_t count = words_of(layout).size();
     const std::string expected = fmt::format("{} {}: {}", count, count == 1 ? "field" : "fields", layout);
@@ -51,7 +51,7 @@ public:
     fail(what, fmt::format("{} fields from {} on", fields_.size(), excerpt(fields_[0])), expected);
   }
 
-  /// Only empty lines may be left.
+  /// Expects only empty lines after the last tube.
   void expect_end(int tubes) {
     while (next_line())
       if (!fields_.empty())
@@ -103,12 +103,12 @@ private:
   std::vector<std::string_view> fields_;
 };
 
-/// One tube while it is read.
+/// Reads one tube.
 class TubeReader {
 public:
   explicit TubeReader(LineReader& lines) : lines_(lines) {}
 
-  /// `ids` are those of the tubes before; it gets this tube's.
+  /// `ids` holds the ids of earlier tubes; adds this tube's.
   Tube read(const std::string& what, std::set<int>& ids) {
     lines_.expect_line(what, "id nodes edges");
     tube_.id = lines_.whole_number(0, "tube id", 1);
@@ -117,8 +117,8 @@ public:
     const int edges = lines_.whole_number(2, "number of edges", 1);
     if (edges != nodes - 1)
       lines_.fail("number of edges", fmt::format("{}", edges),
-                  fmt::format("{}, since a tree has one less than its {} nodes", nodes - 1, nodes));
-    // No memory is reserved for what is only announced.
+                  fmt::format("{}, one less than the tree's {} nodes", nodes - 1, nodes));
+    // Reserves no memory, because the count may be wrong.
     for (int i = 1; i <= nodes; ++i) read_node(fmt::format("node {} of {}", i, nodes));
     boost::disjoint_sets_with_storage<> components(tube_.nodes.size());
     for (int i = 1; i <= edges; ++i) read_edge(fmt::format("edge {} of {}", i, edges), components);
@@ -179,7 +179,7 @@ private:
     if (lines_.text(0) != name) lines_.fail("name", excerpt(lines_.text(0)), excerpt(name));
   }
 
-  // Centre, length and rotation say again what the nodes say.
+  // An edge's centre, length and rotation repeat what its nodes say.
   void expect_agreement(const Edge& edge) const {
     const Eigen::Vector3d from = tube_.nodes[edge.from].position;
     const Eigen::Vector3d to = tube_.nodes[edge.to].position;
@@ -196,7 +196,7 @@ private:
     if (!(std::abs(edge.rotation.norm() - 1) <= unit_tolerance))
       lines_.fail("qw qx qy qz", fmt::format("a quaternion of norm {:.6g}", edge.rotation.norm()),
                   "a unit quaternion");
-    // A direction is known no better than its end points.
+    // A direction is only as accurate as its end points.
     const Eigen::Vector3d turned = edge.rotation * Eigen::Vector3d::UnitZ() * length;
     if (!((turned - along).norm() <= std::max(length_tolerance, angle_tolerance * length)))
       lines_.fail("qw qx qy qz", fmt::format("a rotation of +z onto {}", point(turned / length)),
@@ -205,7 +205,7 @@ private:
   }
 
   [[noreturn]] void fail_again(const std::string& field, int id) const {
-    lines_.fail(field, fmt::format("{} a second time", id), "ids that differ");
+    lines_.fail(field, fmt::format("{} twice", id), "distinct ids");
   }
 
   int id(std::size_t node) const { return tube_.nodes[node].id; }
@@ -216,7 +216,7 @@ private:
 
   LineReader& lines_;
   Tube tube_;
-  std::map<int, std::size_t> indices_;  // of nodes by id
+  std::map<int, std::size_t> indices_;  // of nodes, by id
 };
 
 void write_tube(fmt::memory_buffer& text, const Tube& tube) {

@@ -9,14 +9,14 @@
 
 namespace tanglebin {
 
-/// Reads tubes in the published text format (docs/formats.md). Strict about structure (counts, ids, names, a
-/// tree of known nodes, one positive radius a tube, finite numbers, nothing after the last tube) and about
-/// edges that contradict their nodes by more than 0.1 mm; takes what real files have beyond that (tubes that
-/// overlap or float). Throws InputError with file, line and field.
+/// Reads tubes in the published text format (docs/formats.md). Strict about structure: counts, ids, names, a
+/// tree of known nodes, a single positive radius per tube, finite numbers, nothing after the last tube. Edges
+/// may differ from their nodes by at most 0.1 mm. Otherwise accepts what real files contain, such as tubes
+/// that overlap or float. Throws InputError with file, line and field.
 std::vector<Tube> read_configuration(std::istream& in, const std::string& name);
 std::vector<Tube> read_configuration(const std::filesystem::path& file);
 
-/// Writes that format, each number in the fewest digits that read back as the same double.
+/// Writes that format, each number with the fewest digits that read back as the same double.
 void write_configuration(std::ostream& out, const std::vector<Tube>& tubes);
 
 }  // namespace tanglebin

@@ -18,7 +18,7 @@
 namespace tanglebin {
 namespace {
 
-/// An image as PNG stores it: row by row, a sample of two bytes with the high byte first.
+/// An image as stored in PNG: row by row, two bytes per sample, high byte first.
 struct RawImage {
   int width;
   int height;
@@ -27,9 +27,9 @@ struct RawImage {
   std::vector<png_byte> bytes;
 };
 
-// libpng is C, and reports an error by a jump back to write_image(). So no exception may pass through it
-// (memory that runs out in a callback ends the program), and what owns memory lives in write_image()'s
-// caller.
+// libpng is C and reports errors with a jump back to write_image(). So no exception may pass through it
+// (running out of memory in a callback ends the program), and everything that owns memory belongs to
+// write_image()'s caller.
 
 struct Sink {
   std::string png;
@@ -49,7 +49,7 @@ void append(png_structp png, png_bytep data, std::size_t size) noexcept {
 
 void flush_nothing(png_structp /*png*/) noexcept {}
 
-/// False where libpng jumped back.
+/// False if libpng jumped back.
 bool write_image(png_structp png, png_infop info, const RawImage& image) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),
@@ -118,7 +118,7 @@ std::uint16_t label_sample(std::int32_t label) {
   if (label == null_label) return nothing_in_label_image;
   if (label >= nothing_in_label_image) {
     throw InputError({.file = {}, .line = 0, .field = "label image"}, fmt::format("label {}", label),
-                     fmt::format("at most {}: 16 bits hold no more", nothing_in_label_image - 1));
+                     fmt::format("at most {}, the largest in 16 bits", nothing_in_label_image - 1));
   }
   return static_cast<std::uint16_t>(label);
 }

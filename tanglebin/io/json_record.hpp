@@ -9,17 +9,16 @@
 #include <string_view>
 #include <vector>
 
-// Internal to the library: the JSON of datasets and results.
+// Internal to the library: JSON of datasets and results.
 namespace tanglebin {
 
 using Json = nlohmann::ordered_json;
 
-/// Seeds are hexadecimal text, since many readers of JSON take a number for a double, which cannot hold all
-/// of a seed.
+/// Seeds are hexadecimal text. Many JSON readers convert numbers to double, which cannot hold all 64 bits.
 std::string seed_text(std::uint64_t seed);
 
-/// A JSON object of a file, whose values are read by name. Every function throws InputError with file, line
-/// and field for a value that is missing or another than is expected.
+/// A JSON object from a file, with values read by name. Every function throws InputError with file, line and
+/// field if a value is missing or not as expected.
 class JsonRecord {
 public:
   JsonRecord(const std::string& text, std::string file, std::size_t line);
@@ -41,7 +40,7 @@ public:
   JsonRecord object(const std::string& field) const;
   std::vector<JsonRecord> objects(const std::string& field) const;
 
-  /// Throws the InputError of a field.
+  /// Throws an InputError about a field.
   [[noreturn]] void fail(const std::string& field, const std::string& found,
                          const std::string& expected) const;
 
@@ -57,7 +56,7 @@ private:
 
   std::string file_;
   std::size_t line_;
-  std::string prefix_;  ///< of its fields: "files[2]."
+  std::string prefix_;  ///< of its fields, such as "files[2]."
   Json json_;
 };
 

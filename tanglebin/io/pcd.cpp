@@ -28,12 +28,12 @@ using namespace cloud_format;
 
 static_assert(std::endian::native == std::endian::little, "the files' byte order");
 
-constexpr std::size_t largest_point = std::size_t{1} << 20;  // bytes; a header alone must not claim memory
+constexpr std::size_t largest_point = std::size_t{1}
+                                      << 20;  // bytes; a header alone must not be able to claim memory
 
-constexpr double quaternion_tolerance = 1e-3;  // files round them to as few as four digits
+constexpr double quaternion_tolerance = 1e-3;  // files round quaternions to as few as four digits
 
-// An LZF match takes at least two bytes for eight, or three for 264: none stands for more than 88 times
-// itself.
+// An LZF match takes at least two bytes for eight, or three for 264, so data grows by at most a factor of 88.
 constexpr std::uint64_t most_lzf_expansion = 88;
 
 // ---- header: "KEYWORD word word ...", DATA last
@@ -53,7 +53,7 @@ struct Header {
   Body body = Body::ascii;
 };
 
-// The entries of a header, with the file's name for errors in them.
+// The entries of a header; knows the file's name for errors.
 class Entries {
 public:
   explicit Entries(std::string file) : file_(std::move(file)) {}
@@ -77,7 +77,7 @@ public:
     return entry->second.words;
   }
 
-  // The words of an entry that must have so many.
+  // The words of an entry, which must have this number of them.
   const std::vector<std::string>& words(const std::string& keyword, std::size_t count) const {
     const auto& found = words(keyword);
     if (found.size() != count) {
@@ -121,7 +121,7 @@ void check_version(const Entries& entries) {
   throw InputError(entries.place("VERSION"), excerpt(version), "0.7 or 0.6");
 }
 
-// None where there is no such type.
+// None if there is no such type.
 std::optional<Scalar> to_scalar(std::string_view kind_and_size) {
   static const std::map<std::string_view, Scalar> types{
       {"I 1", Scalar::int8},    {"I 2", Scalar::int16},  {"I 4", Scalar::int32},  {"I 8", Scalar::int64},
@@ -131,7 +131,7 @@ std::optional<Scalar> to_scalar(std::string_view kind_and_size) {
   return type == types.end() ? std::nullopt : std::optional(type->second);
 }
 
-// Gives a field its meaning, if it has any to a cloud.
+// Assigns a field its meaning in a cloud, if it has one.
 void recognize(Property& field, const std::string& type, const InputPlace& place) {
   struct Known {
     Meaning meaning;
@@ -202,8 +202,8 @@ void check_fields(const Entries& entries, const Element& points) {
   }
 }
 
-// The sensor's position and its orientation as a quaternion w x y z. PCL writes the identity where it knows
-// none, so that is what it means.
+// The sensor's position, and its orientation as a quaternion w x y z. PCL writes the identity for an unknown
+// pose, so that means unknown.
 std::optional<Eigen::Isometry3d> read_viewpoint(const Entries& entries) {
   if (!entries.has("VIEWPOINT")) return std::nullopt;
   std::array<double, 7> values{};
@@ -254,7 +254,7 @@ Header read_header(CloudInput& input) {
 
 // ---- body
 
-// Reads piece by piece, so that a header alone cannot claim the memory.
+// Reads piece by piece, so that a header alone cannot claim memory.
 std::vector<std::byte> read_bytes(CloudInput& input, std::size_t size) {
   constexpr std::size_t piece = std::size_t{1} << 20;
   std::vector<std::byte> bytes;
@@ -272,13 +272,14 @@ std::vector<std::byte> read_bytes(CloudInput& input, std::size_t size) {
   return bytes;
 }
 
-// PCL's layout: the sizes before and after decompression, then LZF data that unpacks to a plane a field.
+// PCL's layout: the sizes before and after decompression, then LZF data that decompresses to one plane per
+// field.
 void read_compressed(CloudInput& input, const Element& points, PointDecoder& decoder) {
   const InputPlace place = input.place_in_file("DATA");
   std::array<std::uint32_t, 2> sizes{};
   std::memcpy(sizes.data(), read_bytes(input, sizeof(sizes)).data(), sizeof(sizes));
   const auto [packed_size, size] = sizes;
-  // No overflow: no more than 2^20 bytes a point, and as many points as a division tells.
+  // This cannot overflow: points have at most 2^20 bytes, and the division gives the number of points.
   if (size % record_size(points) != 0 || size / record_size(points) != points.count) {
     throw InputError(place, fmt::format("an uncompressed size of {} bytes", size),
                      fmt::format("{} points of {} bytes", points.count, record_size(points)));
@@ -295,14 +296,14 @@ void read_compressed(CloudInput& input, const Element& points, PointDecoder& dec
   decoder.add_planes(planes.data());
 }
 
-// One of PCL's writers maps whole pages to the file, and leaves zeros up to the end of the last.
+// One of PCL's writers maps whole pages to the file and leaves zeros at the end of the last one.
 void expect_padding(CloudInput& input) {
   constexpr std::size_t largest_page = std::size_t{1} << 16;  // arm64
   std::vector<std::byte> padding(largest_page + 1);
   padding.resize(input.read(padding.data(), padding.size()));
   const auto zeros = static_cast<std::size_t>(std::ranges::count(padding, std::byte{0}));
   if (padding.size() > largest_page || zeros < padding.size()) {
-    throw InputError(input.place_in_file(), "more data after the last point than the header says");
+    throw InputError(input.place_in_file(), "data after the last point that the header declares");
   }
 }
 
@@ -333,7 +334,7 @@ std::string viewpoint_of(const PointCloud& cloud) {
   return fmt::format("{} {} {} {} {} {} {}", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
 }
 
-// An optional field, or several: names, sizes, types and counts.
+// One or several optional fields: names, sizes, types and counts.
 struct FieldText {
   bool there;
   std::string_view names, sizes, types, counts;
@@ -385,13 +386,13 @@ std::vector<std::byte> planes_of(const PointCloud& cloud) {
   return planes;
 }
 
-// Bytes that do not compress take one byte more for each 32, so this buffer is never too small. liblzf leaves
-// its hash table uninitialized, but its result does not depend on it: whatever three bytes came before are in
-// the table, so that an entry left over never stands for an earlier place of the same three.
+// Bytes that do not compress take one extra byte per 32, so this buffer is never too small. liblzf leaves its
+// hash table uninitialized, but that does not affect the result: every three earlier bytes are in the table,
+// so a stale entry never stands for an earlier occurrence of the same three.
 std::vector<std::byte> compressed(const std::vector<std::byte>& bytes) {
   const std::size_t capacity = bytes.size() + bytes.size() / 16 + 64;
   if (capacity > std::numeric_limits<std::uint32_t>::max()) {
-    throw std::length_error("write_pcd: binary_compressed holds less than 4 GiB");
+    throw std::length_error("write_pcd: binary_compressed data must be smaller than 4 GiB");
   }
   std::vector<std::byte> packed(capacity);
   const unsigned size = lzf_compress(bytes.data(), static_cast<unsigned>(bytes.size()), packed.data(),

@@ -34,7 +34,7 @@ struct Header {
 
 // ---- header
 
-// What may come in the vertices, what it means to a cloud and how it may be stored.
+// A vertex property with a meaning in a cloud, and the types it may have.
 struct KnownProperty {
   std::string_view name;
   Meaning meaning;
@@ -116,7 +116,7 @@ Property parse_property(const CloudInput& input, const Words& words) {
   return property;
 }
 
-// Gives a property of the vertices its meaning, if it has any to a cloud.
+// Assigns a vertex property its meaning in a cloud, if it has one.
 void recognize(const CloudInput& input, Property& property, std::string_view type) {
   const auto known = std::ranges::find(known_properties, property.name, &KnownProperty::name);
   if (known == known_properties.end()) return;
@@ -176,7 +176,7 @@ void check_vertices(const CloudInput& input, const Header& header) {
 void check_header(const CloudInput& input, const Header& header) {
   if (!header.encoding) throw InputError(input.place_in_file(), "has no format line");
   for (const Element& element : header.elements) {
-    // Any number of them would take no data at all.
+    // Otherwise any number of them would take no data at all.
     if (element.properties.empty()) {
       throw InputError(input.place_in_file(element.name), "element without properties");
     }
@@ -225,7 +225,7 @@ void expect_end(CloudInput& input, Encoding encoding) {
   if (encoding == Encoding::ascii) {
     expect_no_more_lines(input);
   } else if (!input.at_end()) {
-    throw InputError(input.place_in_file(), "more data after the last element than the header says");
+    throw InputError(input.place_in_file(), "data after the last element that the header declares");
   }
 }
 
@@ -258,7 +258,7 @@ void check_finite(const PointCloud& cloud) {
   }
 }
 
-// Copies a value's bytes to `to`, and returns where the next one goes.
+// Copies a value's bytes to `to`, and returns the position after them.
 template <class T>
 char* put(char* to, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -271,7 +271,7 @@ char* put_vector(char* to, const Eigen::Vector3f& v) {
   return put(to, std::array{v.x(), v.y(), v.z()});
 }
 
-// Bytes that a point has of an optional property.
+// Bytes per point of an optional property.
 template <class T>
 std::size_t size_of_one(const std::vector<T>& values) {
   return values.empty() ? 0 : sizeof(T);

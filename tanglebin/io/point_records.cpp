@@ -16,10 +16,10 @@
 namespace tanglebin::cloud_format {
 namespace {
 
-// Records are decoded column by column while they lie in the processor's second-level cache.
+// Records are decoded column by column while they are in the processor's second-level cache.
 constexpr std::size_t run_bytes = std::size_t{1} << 16;
 
-// PCL's invalid label, and so −1, in an unsigned field.
+// PCL's invalid label, −1 in an unsigned field.
 constexpr std::uint32_t unsigned_null_label = std::numeric_limits<std::uint32_t>::max();
 
 // Calls visitor(std::type_identity<T>) with the C++ type of a scalar.
@@ -53,7 +53,7 @@ decltype(auto) visit(Scalar type, Visitor&& visitor) {
 std::endian byte_order(Encoding encoding) {
   switch (encoding) {
     case Encoding::ascii:
-      return std::endian::native;  // parse_value() stores numbers as they are in memory
+      return std::endian::native;  // parse_value() stores numbers in memory order
     case Encoding::little_endian:
       return std::endian::little;
     case Encoding::big_endian:
@@ -97,7 +97,7 @@ T parse(const CloudInput& input, const Property& property, std::string_view word
   return *value;
 }
 
-// Stores the number as it is in memory.
+// Stores the number in memory order.
 void parse_value(const CloudInput& input, const Property& property, std::string_view word, std::byte* to) {
   visit(property.type, [&]<class T>(std::type_identity<T>) {
     const T value = parse<T>(input, property, word);
@@ -105,14 +105,14 @@ void parse_value(const CloudInput& input, const Property& property, std::string_
   });
 }
 
-// How many words a line of this element must have. A list's length is one of them.
+// The number of words that a line of this element must have, including the lengths of lists.
 std::size_t words_due(const CloudInput& input, const Element& element,
                       const std::vector<std::string_view>& words) {
   std::size_t due = 0;
   for (const Property& property : element.properties) {
     const bool has_length = property.length_type && due < words.size();
     if (has_length) due += parse<std::uint32_t>(input, property, words[due]);
-    due += property.count;  // of a list: the length itself
+    due += property.count;  // for a list: its length
   }
   return due;
 }
@@ -192,7 +192,7 @@ std::string shown(double coordinate) {
   return std::isnan(coordinate) ? "nan" : fmt::format("{}", coordinate);  // never "-nan"
 }
 
-// A label as it is in the file, if it is one.
+// A value of the file as a label, if it is a valid one.
 template <class T>
 std::optional<std::int32_t> as_label(T value) {
   if (std::in_range<std::int32_t>(value) && std::cmp_greater_equal(value, null_label))
@@ -260,7 +260,7 @@ std::size_t record_size(const Element& element) {
 
 void read_records(CloudInput& input, Encoding encoding, const Element& element,
                   const std::function<void(const Records&)>& consume) {
-  const std::size_t size = std::max<std::size_t>(record_size(element), 1);  // 0: nothing but lists
+  const std::size_t size = std::max<std::size_t>(record_size(element), 1);  // 0: only lists
   const std::size_t run = std::max<std::size_t>(run_bytes / size, 1);
   std::vector<std::byte> bytes(std::min(run, element.count) * size);
   for (std::size_t first = 0; first < element.count; first += run) {
@@ -403,7 +403,7 @@ void PointDecoder::decode_labels(const Property& property, const Column& column)
   });
 }
 
-// A file that has only some of a normal's coordinates has no normals.
+// A file with only some components of the normal has no normals.
 void PointDecoder::decode_normals(const Property& property, const Column& column, Eigen::Index axis) {
   if (!has_normals()) return;
   Eigen::Vector3f* const normals = cloud_.normals.data();

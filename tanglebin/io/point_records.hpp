@@ -11,8 +11,8 @@
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/io/cloud_input.hpp"
 
-// Internal to the room: the common ground of PLY and PCD, which both describe a point as a list of typed,
-// named values.
+// Internal to the room: common code for PLY and PCD, which both store a point as a list of typed, named
+// values.
 namespace tanglebin::cloud_format {
 
 enum class Scalar { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
@@ -20,7 +20,7 @@ enum class Scalar { int8, uint8, int16, uint16, int32, uint32, int64, uint64, fl
 std::size_t size_of(Scalar type);
 bool is_integer(Scalar type);
 
-/// What a property of a point is to a PointCloud.
+/// The role of a property in a PointCloud.
 enum class Meaning {
   other,
   x,
@@ -38,20 +38,19 @@ enum class Meaning {
   mixed
 };
 
-/// Whether a property of this type can have this meaning: coordinates and normals are floating-point numbers,
-/// colours uint8, packed colours 32 bits wide, labels and marks integers; anything goes for intensities and
-/// `other`.
+/// True if a property of this type can have this meaning. Coordinates and normals are floating-point, colours
+/// uint8, packed colours 32 bits wide, labels and marks integers. Intensities and `other` may be anything.
 bool can_be(Meaning meaning, Scalar type);
 
 struct Property {
   std::string name;
   Scalar type = Scalar::float32;
   Meaning meaning = Meaning::other;
-  std::size_t count = 1;              ///< values a point has of it (PCD)
-  std::optional<Scalar> length_type;  ///< a list (PLY): type of its length, which precedes the values
+  std::size_t count = 1;              ///< values per point (PCD)
+  std::optional<Scalar> length_type;  ///< for a list (PLY): the type of its length, which precedes the values
 };
 
-/// What a file holds `count` of, one after the other: PLY's elements, PCD's points.
+/// A sequence of `count` equal records in a file: a PLY element, or the points of a PCD file.
 struct Element {
   std::string name;
   std::size_t count = 0;
@@ -60,26 +59,26 @@ struct Element {
 
 const Property* find(const Element& element, Meaning meaning);
 
-/// Bytes of a property within a record; 0 for a list, which is left out of it.
+/// Bytes of a property within a record; 0 for a list, which is skipped.
 std::size_t size_of(const Property& property);
 std::size_t record_size(const Element& element);
 
 enum class Encoding { ascii, little_endian, big_endian };
 
-/// A run of elements read: `count` records of record_size() bytes, the first being element `first`.
+/// Consecutive records in memory: `count` of record_size() bytes each, starting with element `first`.
 struct Records {
   const std::byte* bytes;
   std::size_t first;
   std::size_t count;
 };
 
-/// Reads all of an element and hands it to `consume`, run by run. In ascii, each is a line of its own, and
-/// only the values that mean something are parsed. Throws InputError where there are fewer than `count`, or a
-/// line has not the values that are due.
+/// Reads a whole element and passes it to `consume`, piece by piece. In ascii files, each record is a line,
+/// and only values with a meaning are parsed. Throws InputError if there are fewer than `count` records, or
+/// if a line has the wrong number of values.
 void read_records(CloudInput& input, Encoding encoding, const Element& element,
                   const std::function<void(const Records&)>& consume);
 
-/// Throws InputError where anything but blank lines follows.
+/// Throws InputError if anything but blank lines follows.
 void expect_no_more_lines(CloudInput& input);
 
 /// The values of one property of points [first_point, first_point + count), `stride` bytes apart.
@@ -90,21 +89,22 @@ struct Column {
   std::size_t count;
 };
 
-/// Puts the values of a file into a cloud, and says where a bad one is.
+/// Converts the values of a file into a cloud, and reports the position of bad values.
 class PointDecoder {
 public:
   enum class Nan { rejected, kept };
 
-  /// The points of `element`, whose data comes next in `input`.
+  /// For the points of `element`, whose data comes next in `input`.
   PointDecoder(const CloudInput& input, const Element& element, Encoding encoding, Nan nan);
 
-  /// Makes room for the points that so many bytes of binary data can hold.
+  /// Reserves memory for as many points as this number of bytes of binary data can hold.
   void reserve(std::size_t bytes);
 
-  /// Adds points that lie in memory one after the other.
+  /// Adds points stored one after the other.
   void add_records(const Records& records);
 
-  /// Adds all points at once from planes: all values of the first property, all of the second, and so on.
+  /// Adds all points at once, stored as planes: all values of the first property, then all of the second, and
+  /// so on.
   void add_planes(const std::byte* planes);
 
   PointCloud take() { return std::move(cloud_); }
@@ -129,7 +129,7 @@ private:
   std::string file_;
   const Element& element_;
   std::endian order_;
-  std::size_t first_line_;  ///< of the points in an ascii file, one a line; 0 in a binary file
+  std::size_t first_line_;  ///< of the points in an ascii file, which has one per line; 0 in a binary file
   Nan nan_;
   PointCloud cloud_;
 };

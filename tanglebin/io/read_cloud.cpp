@@ -18,7 +18,7 @@ PointCloud read_cloud(std::istream& in, const std::string& name) {
   if (first == 'p') return read_ply(in, name);
   if (first == '#' || first == 'V') return read_pcd(in, name);
   const char character = std::istream::traits_type::to_char_type(first);
-  throw InputError({name, 0, ""}, excerpt({&character, 1}) + " first", expected);
+  throw InputError({name, 0, ""}, excerpt({&character, 1}) + " at the start", expected);
 }
 
 PointCloud read_cloud(const std::filesystem::path& file) {

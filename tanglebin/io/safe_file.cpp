@@ -57,7 +57,7 @@ public:
 
   std::error_code sync() const { return ::fsync(descriptor_) == 0 ? std::error_code{} : last_error(); }
 
-  // A network file system may report only here that a write failed.
+  // A network file system may report only now that a write failed.
   std::error_code close() {
     const int descriptor = descriptor_;
     descriptor_ = -1;
@@ -68,8 +68,7 @@ private:
   int descriptor_;
 };
 
-/// A new file under a name that no other process or thread has; removed at the end of the scope unless
-/// renamed before.
+/// A new file whose name no other process or thread uses; removed at the end of the scope unless renamed.
 class TemporaryFile {
 public:
   explicit TemporaryFile(fs::path directory) : directory_(std::move(directory)) {}
@@ -83,10 +82,11 @@ public:
     static std::atomic<unsigned> counter{0};
     int descriptor = -1;
     do {
-      // Not derived from the final name, which may be as long as names can be.
+      // Not derived from the final name, which may already have the maximum length.
       path_ = directory_ / fmt::format(".tanglebin-{}-{}.tmp", ::getpid(), counter++);
       descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (descriptor < 0 && errno == EEXIST);  // left by a process that was killed, or another machine's
+    } while (descriptor < 0 &&
+             errno == EEXIST);  // left over from a process that was killed, or on another machine
     if (descriptor < 0) return last_error();
     exists_ = true;
     file_ = std::make_unique<Descriptor>(descriptor);
@@ -133,7 +133,7 @@ std::error_code sync_names_in(const fs::path& directory) {
   Descriptor opened(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!opened.is_open()) return last_error();
   const std::error_code error = opened.sync();
-  // Some file systems have no such thing, or need none.
+  // Some file systems do not support this, or do not need it.
   return error == std::errc::invalid_argument ? std::error_code{} : error;
 }
 
@@ -154,7 +154,7 @@ std::error_code write_whole(const fs::path& file, std::string_view bytes) {
   return write_beside_and_rename(target, bytes);
 }
 
-/// The part of the path that exists but is no directory; empty where there is none.
+/// The existing part of the path that is not a directory; empty if there is none.
 fs::path obstacle(const fs::path& directory) {
   fs::path part;
   for (const fs::path& name : directory) {
@@ -175,7 +175,7 @@ void write_file(const std::filesystem::path& file, std::string_view bytes) {
 void make_directories(const std::filesystem::path& directory) {
   std::error_code error;
   if (fs::is_directory(directory, error)) return;
-  // Those above one that is there already are on the disk.
+  // Directories above an existing one are already on disk.
   std::vector<fs::path> changed{directory_of(directory)};
   while (fs::status(changed.back(), error).type() == fs::file_type::not_found) {
     changed.push_back(directory_of(changed.back()));
@@ -200,7 +200,7 @@ void expect_below(const std::filesystem::path& directory, const std::filesystem:
   if (error) fail(file, "cannot be opened", error);
   if (std::ranges::mismatch(top, folder).in1 != top.end()) {
     throw InputError({.file = file.string(), .line = 0, .field = {}},
-                     "a folder that leads to " + folder.string(), "one below the dataset's directory");
+                     "a folder that leads to " + folder.string(), "a folder below the dataset's directory");
   }
 }
 

@@ -6,33 +6,30 @@
 
 namespace tanglebin {
 
-/// Writes `bytes` to `file` so that it appears under its name only when it is whole and on the disk: into a
-/// temporary file in the same directory, which then takes the name, also that of a file there before. The new
-/// name is on the disk, too, when it returns. Where `file` is a symbolic link, what it points to is written;
-/// where it is a device or a pipe, the bytes go straight into it. Leaves nothing behind on failure: throws
-/// InputError with the file and the reason ("No space left on device", "Permission denied", "Is a directory",
-/// …).
+/// Writes `bytes` to `file` atomically: to a temporary file in the same directory, which is then renamed and
+/// may replace an existing file. File and name are on disk when this returns. A symbolic link is followed; a
+/// device or pipe is written directly. On failure, leaves nothing behind and throws InputError with the file
+/// and the reason ("No space left on device", "Permission denied", "Is a directory", …).
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
-/// Makes the directory and those above it that are missing, names on the disk. Throws InputError with the
-/// path that stands in the way and the reason.
+/// Creates a directory and its missing parents, and waits until their names are on disk. Throws InputError
+/// with the reason and the path that is in the way.
 void make_directories(const std::filesystem::path& directory);
 
-/// Throws InputError where the folder of `file` is not below `directory` once symbolic links are followed.
-/// Both must be there.
+/// Throws InputError if the folder of `file` is not below `directory` after following symbolic links. Both
+/// must exist.
 void expect_below(const std::filesystem::path& directory, const std::filesystem::path& file);
 
-/// Writes all of the bytes to an open file. Throws InputError with the file's name and the reason.
+/// Writes all bytes to an open file. Throws InputError with the file's name and the reason.
 void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& file);
 
-/// Waits until the names in the directory are on the disk, as they are of files that took theirs before.
-/// Throws InputError.
+/// Waits until the names in the directory, including those of files renamed before, are on disk. Throws
+/// InputError.
 void sync_directory(const std::filesystem::path& directory);
 
-/// A file that is written piece by piece under a temporary name in the directory `staging`, which is on the
-/// same disk, and takes its own name, whole and on the disk, when it is committed; one that is not committed
-/// is gone. The new name is on the disk after sync_directory(). Every function throws InputError as
-/// write_file() does.
+/// A file written piece by piece under a temporary name in the directory `staging`, which must be on the same
+/// disk. commit() gives it its own name once its data is on disk; without commit(), it is removed. The new
+/// name is on disk after sync_directory(). All functions throw InputError as write_file() does.
 class StagedFile {
 public:
   StagedFile(std::filesystem::path file, const std::filesystem::path& staging);
@@ -48,7 +45,7 @@ private:
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// A StagedFile of these bytes.
+/// Writes a StagedFile with these bytes.
 void write_staged(const std::filesystem::path& file, std::string_view bytes,
                   const std::filesystem::path& staging);
 

@@ -61,11 +61,11 @@ void validate(const KnownScene& known, const ModelSettings& settings) {
   validate(known);
   expect_available(settings.method);
   if (!(settings.ratio > 0 && settings.ratio <= 1)) {
-    throw InputError({"", 0, "downsample"}, fmt::format("{}", settings.ratio), "a ratio above 0, at most 1");
+    throw InputError({"", 0, "downsample"}, fmt::format("{}", settings.ratio),
+                     "a ratio above 0 and at most 1");
   }
   if (settings.method == Method::paper && known.kinds.size() > 1)
-    throw InputError({"", 0, "method"}, "paper for tubes of several radii",
-                     "axis; the paper's method handles a single radius");
+    throw InputError({"", 0, "method"}, "the paper's method handles a single radius; use --method axis");
 }
 
 Model model_tubes(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings) {

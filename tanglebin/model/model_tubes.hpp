@@ -12,40 +12,40 @@
 
 namespace tanglebin {
 
-/// The ways to model tubes.
+/// The modelling methods.
 enum class Method {
-  paper,  ///< the paper's, Section 4; for chains
-  axis,   ///< by votes for the tubes' axes; for chains and trees
+  paper,  ///< the paper's method (Section 4); chains only
+  axis,   ///< the axis method: surface points vote for tube axes; chains and trees
 };
 
-/// Every method, in the order in which tables show them.
+/// All methods, in the order in which tables list them.
 std::vector<Method> methods();
 
-/// "paper" or "axis". The inverse throws InputError for another name.
+/// "paper" or "axis". method_named() is the inverse; it throws InputError for any other name.
 std::string name_of(Method method);
 Method method_named(const std::string& name);
 
-/// How tubes are modelled. Every parameter of both methods is a plain member; set_parameter() sets one by its
-/// name.
+/// Which method to use, with the parameters of both. Every parameter is a plain member; set_parameter() sets
+/// one by name.
 struct ModelSettings {
   Method method = Method::axis;
-  double ratio = 1;        ///< share of the points to model from, drawn at random; 0 < ratio ≤ 1
-  std::uint64_t seed = 0;  ///< of that draw and of the method's own random choices
+  double ratio = 1;        ///< downsampling ratio, 0 < ratio ≤ 1; the points are drawn at random
+  std::uint64_t seed = 0;  ///< of the downsampling
   AxisSettings axis{};
   PaperSettings paper{};
 };
 
-/// Throws InputError where this program lacks the method: the paper's needs the Point Cloud Library.
+/// Throws InputError if this build lacks the method: the paper's method needs the Point Cloud Library.
 void expect_available(Method method);
 
-/// Throws InputError for a scene or a ratio that is not valid, for a method that is not available, and for
-/// several kinds of tubes where the method handles only one (paper).
+/// Throws InputError if the scene or the ratio is invalid, if the method is not available, or if there are
+/// several kinds of tubes and the method handles only one (paper).
 void validate(const KnownScene& known, const ModelSettings& settings);
 
-/// Models the tubes of a cloud (m, world frame; a subset of what the known camera saw, in any order; labels
-/// and colours are ignored) from a share of its points. Every point gets a label, also those left out of the
-/// modelling. The result follows from the arguments alone. Throws InputError as validate() does, and for a
-/// cloud that cannot show this scene: one in millimetres, say. Its messages name no file.
+/// Models the tubes of a cloud and labels every point, including those left out by downsampling. The cloud is
+/// in metres, world frame, and holds any subset of what the known camera saw, in any order; its labels and
+/// colours are ignored. The result depends only on the arguments. Throws InputError as validate() does, and
+/// if the cloud cannot show this scene, for example because it is in millimetres. The messages name no file.
 Model model_tubes(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings = {});
 
 }  // namespace tanglebin

@@ -13,7 +13,7 @@
 namespace tanglebin {
 namespace {
 
-// A line here is all that a new parameter needs.
+// To add a parameter, add a line here.
 template <typename Settings, typename Visit>
 void for_each_parameter(Settings& settings, Visit visit) {
   visit("axis.filter.margin", settings.axis.filter.margin);

@@ -8,15 +8,15 @@
 
 namespace tanglebin {
 
-/// The parameters of both methods by their names, which are those of the members: "axis.vote.floor_margin".
+/// The parameters of both methods, keyed by the names of their members, such as "axis.vote.floor_margin".
 std::map<std::string, double> parameters(const ModelSettings& settings);
 
-/// Those of the parameters that differ from the defaults.
+/// The parameters that differ from their defaults.
 std::map<std::string, double> changed_parameters(const ModelSettings& settings);
 
-/// Sets the parameter of an assignment such as "axis.vote.floor_margin=0.4". Throws InputError naming
-/// `option` for an unknown name, and for a value that is not a number of the parameter's kind: finite and not
-/// negative, whole and positive for a count.
+/// Sets a parameter from an assignment such as "axis.vote.floor_margin=0.4". Throws InputError naming
+/// `option` for an unknown name and for an invalid value. Values are finite and not negative; counts are
+/// whole numbers, 1 or more.
 void set_parameter(ModelSettings& settings, std::string_view assignment, const std::string& option);
 
 }  // namespace tanglebin

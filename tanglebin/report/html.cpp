@@ -6,7 +6,7 @@
 namespace tanglebin {
 namespace {
 
-/// How many columns from this one on are of its group.
+/// The number of columns in the group of column `first`, from there on.
 std::size_t group_size(const std::vector<HtmlColumn>& columns, std::size_t first) {
   std::size_t end = first;
   while (end < columns.size() && columns[end].group == columns[first].group) ++end;
@@ -89,7 +89,7 @@ std::string base64(std::string_view bytes) {
 }
 
 std::string html(const HtmlTable& table) {
-  constexpr std::size_t many_columns = 14;  // more of them need smaller print to fit on paper
+  constexpr std::size_t many_columns = 14;  // more columns need smaller print to fit on paper
   std::string text = fmt::format(
       "<figure class=\"table{}\"><figcaption>{}</figcaption>\n"
       "<div class=\"scroll\" tabindex=\"0\"><table>\n<thead>\n{}</thead>\n<tbody>\n",

@@ -1,4 +1,4 @@
-// The head of the report, and its end: what was run, what came of it, and how to run it again.
+// The beginning and the end of the report: what was run, the headline results, and how to reproduce them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -67,7 +67,7 @@ std::string facts(const Results& results) {
          fact("Version", "Tanglebin " + escaped(experiment.version)) + "</dl>\n";
 }
 
-// ---- What came of it
+// ---- Headline
 // ----------------------------------------------------------------------------------------------
 
 /// "0.912 (set A) and 0.889 (set B)"
@@ -98,7 +98,7 @@ std::string time_of(const std::vector<RunTime>& all, const std::string& method, 
                      published ? fmt::format(" (published: {} s)", seconds_text(published)) : "");
 }
 
-/// A sentence a method.
+/// One sentence per method.
 std::string headline(const Results& results) {
   if (results.scores.empty()) return "There are no scores yet.";
   const double ratio = shown_ratio(results.scores);
@@ -107,11 +107,9 @@ std::string headline(const Results& results) {
   for (const std::string& method : results.experiment.methods) {
     const std::string recalls = recalls_of(scores, method);
     if (recalls.empty()) continue;
-    sentences.push_back(
-        fmt::format("At downsampling ratio {}, method “{}” labels a mean share of {} of the points right "
-                    "(micro-recall){}.",
-                    ratio_text(ratio), method, recalls,
-                    time_of(results.times, method, ratio, shown_tubes(results.scores))));
+    sentences.push_back(fmt::format("At downsampling ratio {}, method “{}” has a mean micro-recall of {}{}.",
+                                    ratio_text(ratio), method, recalls,
+                                    time_of(results.times, method, ratio, shown_tubes(results.scores))));
   }
   return fmt::format("{}", fmt::join(sentences, " "));
 }
@@ -130,14 +128,14 @@ std::string commands(const Results& results) {
       methods, fmt::join(experiment.ratios, ","), experiment.seed);
 }
 
-/// Which cases were chosen is not recorded but by the results themselves.
+/// Only the results themselves record which cases were selected.
 std::string note_on_chosen_cases(const Results& results) {
   if (results.generation.size() <= results.experiment.cases) return "";
-  return paragraph("note",
-                   fmt::format("These results are of {} of the dataset's {} cases; <code>--set</code>, "
-                               "<code>--tubes</code> and <code>--cases</code> of "
-                               "<code>experiment</code> choose them.",
-                               results.experiment.cases, results.generation.size()));
+  return paragraph(
+      "note", fmt::format("These results cover {} of the dataset's {} cases. Select cases with the options "
+                          "<code>--set</code>, <code>--tubes</code> and <code>--cases</code> of "
+                          "<code>experiment</code>.",
+                          results.experiment.cases, results.generation.size()));
 }
 
 }  // namespace
@@ -149,8 +147,8 @@ std::string overview(const Results& results) {
   if (results.unfinished) {
     html += paragraph(
         "warning",
-        "This experiment is not finished: a run was cut off or is under way, and what it has done since "
-        "is not on this page. The same command goes on where it stopped.");
+        "This experiment is not finished: a run was interrupted or is in progress, and its latest results "
+        "are not on this page. Run the same command again to resume.");
   }
   html += paragraph("lead", escaped(headline(results)));
   return html + facts(results) + "</header>\n";
@@ -158,16 +156,15 @@ std::string overview(const Results& results) {
 
 std::string how_to_repeat(const Results& results) {
   return section_html(
-      "repeat", "How to make this page again",
+      "repeat", "How to reproduce this page",
       fmt::format("<pre tabindex=\"0\"><code>{}</code></pre>\n", escaped(commands(results))) +
           note_on_chosen_cases(results) +
-          paragraph(
-              "note",
-              fmt::format(
-                  "<code>recipe.toml</code> is the recipe that the dataset was made from: the dataset has "
-                  "it, with every value written down. With Tanglebin {} the same recipe gives the same "
-                  "scores, number for number. Times differ from machine to machine.",
-                  escaped(results.experiment.version))));
+          paragraph("note",
+                    fmt::format(
+                        "<code>recipe.toml</code> is the dataset's recipe; the dataset contains a copy with "
+                        "every value. With Tanglebin {}, the same recipe gives exactly the same scores. "
+                        "Times differ between machines.",
+                        escaped(results.experiment.version))));
 }
 
 }  // namespace tanglebin

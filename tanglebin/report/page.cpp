@@ -18,7 +18,7 @@ constexpr const char* contents = R"html(<nav aria-label="Contents">
 <li><a href="#figure-9">Micro-recall by ratio</a></li>
 <li><a href="#measures">Other measures</a></li>
 <li><a href="#pictures">Pictures</a></li>
-<li><a href="#repeat">How to make this page again</a></li>
+<li><a href="#repeat">How to reproduce this page</a></li>
 </ul>
 </nav>
 )html";
@@ -26,8 +26,8 @@ constexpr const char* contents = R"html(<nav aria-label="Contents">
 constexpr const char* citation = R"html(<footer>
 <p>The paper: G. Leão, C. M. Costa, A. Sousa, L. P. Reis, G. Veiga: <cite>Using Simulation to Evaluate a Tube Perception
 Algorithm for Bin Picking.</cite> Robotics 11(2), 46, 2022.
-<a href="https://doi.org/10.3390/robotics11020046">doi:10.3390/robotics11020046</a>. Numbers called published are from
-its Tables 1 and 2 and the text of its Section 6.2; sets are matched with the paper's by their names, A and B.</p>
+<a href="https://doi.org/10.3390/robotics11020046">doi:10.3390/robotics11020046</a>. Published numbers are from its
+Tables 1 and 2 and the text of its Section 6.2. Sets A and B are compared with the paper's sets of the same name.</p>
 </footer>
 )html";
 

@@ -6,9 +6,8 @@
 
 namespace tanglebin {
 
-/// The report: an HTML page that needs no other file, no network and no scripts. Follows from the results
-/// alone, byte for byte. Throws std::runtime_error where gnuplot, which draws the plots, is not installed or
-/// fails.
+/// The report: a self-contained HTML page, without network access or scripts. Its bytes depend only on the
+/// results. Throws std::runtime_error if gnuplot, which draws the plots, is not installed or fails.
 std::string report_page(const Results& results);
 
 }  // namespace tanglebin

@@ -8,8 +8,8 @@
 
 namespace tanglebin {
 
-/// label_colors() for labels up to `largest_label`. Throws InputError with `name` for a label so large that
-/// it is more likely a mistake.
+/// label_colors() for labels up to `largest_label`. Throws InputError with `name` if that is implausibly
+/// large.
 std::vector<Color> palette(std::int32_t largest_label, const std::string& name);
 
 }  // namespace tanglebin

@@ -11,14 +11,14 @@
 
 namespace tanglebin {
 
-/// A shaded picture of tubes in label_colors() and of the bin, whose walls on the viewer's side are as of
-/// glass. Throws InputError with `name` for tubes beyond farthest_in_picture, or for a view that is none.
+/// A shaded picture of tubes, in label_colors(), in their bin, whose walls on the viewer's side are
+/// transparent. Throws InputError with `name` for tubes beyond farthest_in_picture, or for an invalid view.
 Picture picture_of_tubes(const std::vector<Tube>& tubes, const Bin& bin, const View& view,
                          const std::string& name);
 
-/// A shaded picture of a cloud as a surface: in label_colors() where it has labels, else in its own colours,
-/// else coloured by height (z). Points that are NaN are left out. Throws InputError with `name` for a cloud
-/// without points or with one beyond farthest_in_picture, or for a view that is none.
+/// A shaded picture of a cloud as a surface, coloured by label_colors() if it has labels, or else by its own
+/// colours, or else by height (z). NaN points are left out. Throws InputError with `name` for a cloud without
+/// points, for points beyond farthest_in_picture, or for an invalid view.
 Picture picture_of_cloud(const PointCloud& cloud, const View& view, const std::string& name);
 
 }  // namespace tanglebin

@@ -45,7 +45,7 @@ std::vector<Color> colors_by_label(const std::vector<std::int32_t>& labels, cons
   return colors;
 }
 
-/// From deep blue over green to yellow, ever lighter, for a share in [0, 1].
+/// From deep blue over green to yellow, increasingly light, for a value in [0, 1].
 Color height_color(double share) {
   constexpr std::array<std::array<double, 3>, 5> stops = {
       {{68, 20, 100}, {58, 84, 150}, {36, 142, 148}, {100, 196, 106}, {250, 226, 60}}};
@@ -86,7 +86,7 @@ std::vector<Splat> splats_of(const std::vector<Vector3d>& positions, const Camer
   splats.reserve(positions.size());
   const Vector3d optical_axis = camera.pose.linear().col(2);
   for (const Vector3d& position : positions) {
-    const Vector2d pixel = project(camera, position).value();  // in front, as camera_for() has it
+    const Vector2d pixel = project(camera, position).value();  // camera_for() ensures that it is in front
     splats.push_back({.u = static_cast<int>(std::lround(pixel.x())),
                       .v = static_cast<int>(std::lround(pixel.y())),
                       .depth = static_cast<float>(optical_axis.dot(position - camera.pose.translation()))});
@@ -94,8 +94,8 @@ std::vector<Splat> splats_of(const std::vector<Vector3d>& positions, const Camer
   return splats;
 }
 
-/// The radius in samples at which neighbouring points just close to a surface, from the area of the image
-/// that has points, counted in cells: so it is never much larger than a cell, where points are few.
+/// The radius, in samples, at which neighbouring points just form a closed surface, from the area of the
+/// image that has points, counted in cells. So it is never much larger than a cell if points are sparse.
 int splat_radius(const std::vector<Splat>& splats, const Camera& camera) {
   constexpr int cell_size = 8;
   const auto cell_at = [](int pixel) { return static_cast<std::size_t>(pixel) / cell_size; };
@@ -109,7 +109,7 @@ int splat_radius(const std::vector<Splat>& splats, const Camera& camera) {
   return static_cast<int>(std::ceil(std::sqrt(area / static_cast<double>(splats.size()))));
 }
 
-/// The splats as discs that face the camera, the nearest in front.
+/// Draws the splats as discs facing the camera, the nearest in front.
 SurfaceImage draw_discs(const std::vector<Splat>& splats, const PointCloud& cloud, int radius,
                         const Camera& camera) {
   SurfaceImage image(camera);
@@ -132,10 +132,10 @@ SurfaceImage draw_discs(const std::vector<Splat>& splats, const PointCloud& clou
   return image;
 }
 
-/// The normal of the surface around a sample: that of the plane through it whose depth fits best, by least
-/// squares, the neighbours of the same object.
+/// The surface normal around a sample, from the plane whose depth fits the neighbours of the same object best
+/// (least squares).
 Vector3f estimate_normal(const SurfaceImage& image, int u, int v, int radius) {
-  constexpr float steepest = 4;  // what rises faster from sample to sample is another surface
+  constexpr float steepest = 4;  // a steeper rise between samples means another surface
   const Camera& camera = image.camera;
   const SurfaceSample& sample = image.at(u, v);
   const auto focal_length = static_cast<float>(camera.fx);

@@ -15,7 +15,7 @@ namespace {
 constexpr int widest_panel = 480;  // pixels
 constexpr Color black{0, 0, 0};
 
-/// Between two colours, at a share from 0 to 1 of the way.
+/// Interpolates between two colours; `share` is in [0, 1].
 Color blend(const Color& from, const Color& to, double share) {
   Color color{};
   for (std::size_t i = 0; i < color.size(); ++i) {
@@ -24,7 +24,7 @@ Color blend(const Color& from, const Color& to, double share) {
   return color;
 }
 
-/// Along three colours.
+/// Interpolates along three colours.
 Color blend(const Color& first, const Color& middle, const Color& last, double share) {
   const double clamped = std::clamp(share, 0.0, 1.0);
   return clamped < 0.5 ? blend(first, middle, 2 * clamped) : blend(middle, last, 2 * clamped - 1);
@@ -109,7 +109,7 @@ private:
 Picture picture_of_scan(const Scan& ideal, const Scan& measured, const std::string& name) {
   if (std::ranges::none_of(ideal.pixels, is_there)) {
     throw InputError({.file = name, .line = 0, .field = ""}, "a scanner that sees nothing of the scene",
-                     "one that looks at it");
+                     "one that looks at the scene");
   }
   const Depths depths = depths_of(ideal);
   const std::vector<Color> colors = palette(std::ranges::max(ideal.pixels, {}, &Pixel::label).label, name);

@@ -42,7 +42,7 @@ std::vector<Color> colors_of(const std::vector<Tube>& tubes, const std::string& 
 /// The tubes and the floor, without walls.
 SurfaceImage draw_tubes(const std::vector<Tube>& tubes, const std::vector<Color>& colors, Bin bin,
                         const Camera& camera) {
-  bin.height = 1e-9;  // walls that nobody sees
+  bin.height = 1e-9;  // invisibly low walls
   const Scan seen = scan(tubes, bin, camera);
   SurfaceImage image(camera);
   auto pixel = seen.pixels.begin();
@@ -63,7 +63,7 @@ bool is_on_viewers_side(const AlignedBox3d& wall, const Camera& camera) {
   return outwards.dot(camera.pose.translation() - wall.center()) > 0;
 }
 
-/// Adds the walls: those on the viewer's side as of glass.
+/// Adds the walls; those on the viewer's side are transparent.
 void draw_walls(const Bin& bin, SurfaceImage& image) {
   const Camera& camera = image.camera;
   const Vector3d optical_axis = camera.pose.linear().col(2);

@@ -49,7 +49,7 @@ PointCloud fragments_of(const AxisModel& model) {
   return cloud;
 }
 
-// What is labelled as the bin is left out.
+// Leaves out points labelled as the bin.
 PointCloud labelled_of(const PointCloud& cloud, const Model& model) {
   PointCloud labelled;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {

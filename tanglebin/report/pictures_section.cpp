@@ -1,4 +1,4 @@
-// The best, the median and the worst case.
+// The best, median and worst cases.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace tanglebin {
 namespace {
 
-/// Big-endian, as a PNG's header has its width and height.
+/// Reads a big-endian number, such as width and height in a PNG header.
 std::uint32_t number_at(const std::string& png, std::size_t position) {
   std::uint32_t value = 0;
   for (std::size_t i = position; i < position + 4; ++i) {
@@ -19,7 +19,7 @@ std::uint32_t number_at(const std::string& png, std::size_t position) {
   return value;
 }
 
-/// The picture with its size, so that the page does not move while it is decoded.
+/// An <img> with its size, so that the page does not move while the picture is decoded.
 std::string image(const std::string& png, const std::string& file, const std::string& text) {
   constexpr std::size_t width_position = 16;  // after the signature, and the chunk's length and name
   constexpr std::size_t height_position = 20;
@@ -63,9 +63,8 @@ std::string example_pictures(const Results& results) {
   } else {
     content =
         paragraph("note",
-                  "The case with the highest, the median and the lowest micro-recall: on the left what is "
-                  "true, on the right what the method found. Each tube or label has a colour; black is "
-                  "what no tube claims.") +
+                  "The cases with the highest, median and lowest micro-recall: the truth on the left, the "
+                  "method's labels on the right. Each tube or label has a colour; black is null.") +
         content;
   }
   return section_html("pictures", "Best, median and worst case", content);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int width = 420;
 
-/// The names of the series above the plot, in two columns where they are short enough.
+/// The number of columns of the key above the plot: two if the names are short enough.
 int key_columns(const Plot& plot) {
   constexpr std::size_t longest = 18;
   const auto is_short = [](const PlotSeries& series) { return series.name.size() <= longest; };
@@ -35,8 +35,8 @@ int height(const Plot& plot) {
   return without_key + key_line * ((static_cast<int>(plot.series.size()) + columns - 1) / columns);
 }
 
-/// How the points of a series look: each differs from every other in colour, shape and dashes. The colours
-/// have a contrast of 3 and more both to white and to the dark page.
+/// The look of a series' points. Each differs from all others in colour, shape and dashes. The colours have a
+/// contrast of at least 3 with both white and the dark page.
 struct Look {
   const char* color;
   int point;
@@ -60,7 +60,7 @@ std::vector<double> all_x(const Plot& plot) {
   return {values.begin(), values.end()};
 }
 
-/// Between neighbouring values; 1 for a single one.
+/// The smallest gap between neighbouring values; 1 for a single value.
 double least_gap(const std::vector<double>& x) {
   double gap = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < x.size(); ++i) gap = std::min(gap, x[i] - x[i - 1]);
@@ -75,13 +75,13 @@ double y_least(const Plot& plot) {
   return (std::ceil(least * 10 - 1e-9) - 1) / 10;
 }
 
-/// Between the labels of the vertical axis.
+/// The distance between the labels of the vertical axis.
 double y_step(double range) {
   if (range < 0.35) return 0.05;
   return range < 0.65 ? 0.1 : 0.2;
 }
 
-/// A label at each x, as long as these do not touch; else round numbers of gnuplot's choice.
+/// A label at each x if they do not overlap; otherwise gnuplot's choice of round numbers.
 std::string tics(const std::vector<double>& x) {
   constexpr std::size_t most = 12;
   if (x.size() > most) return "autofreq";
@@ -93,8 +93,8 @@ std::string tics(const std::vector<double>& x) {
 // ---- The script
 // -------------------------------------------------------------------------------------------
 
-/// A string of gnuplot's. Between single quotes nothing is special but the quote itself, which becomes a
-/// typographic one: doubled, as gnuplot's manual has it, it ends the string where it stands first.
+/// A gnuplot string. Between single quotes only the quote itself is special; it becomes a typographic quote,
+/// because doubling it, as in gnuplot's manual, ends the string if it comes first.
 std::string quoted(std::string_view text) {
   std::string result = "'";
   for (const char c : text) {
@@ -107,8 +107,8 @@ std::string quoted(std::string_view text) {
   return result + "'";
 }
 
-/// A name that fits into the key, from which gnuplot leaves out longer ones: without its middle, since names
-/// that begin alike may end in different methods.
+/// A name that fits into the key, because gnuplot omits longer ones. Cuts out the middle: names that begin
+/// alike may end in different methods.
 std::string shortened(const std::string& name) {
   constexpr std::size_t longest = 36;
   constexpr std::size_t tail = 11;
@@ -123,7 +123,7 @@ std::string shortened(const std::string& name) {
   return name.substr(0, end_of_head) + "…" + name.substr(begin_of_tail);
 }
 
-/// Puts the series beside each other, so that no bar hides another; the paper's numbers have none.
+/// Horizontal offsets of the series, so that no bar hides another; 0 for the paper's numbers.
 std::vector<double> shifts(const std::vector<PlotSeries>& series, double gap) {
   const auto count = static_cast<double>(std::ranges::count(series, false, &PlotSeries::is_published));
   const double step = gap * std::min(0.2, 0.6 / count);
@@ -192,12 +192,12 @@ std::string script(const Plot& plot) {
 std::string draw(const std::string& commands) {
   ProcessResult gnuplot;
   try {
-    // The settings of the machine and of the user stay out of it.
+    // Ignores gnuplot settings of the machine and the user.
     gnuplot = run_process({"gnuplot", "--default-settings"}, commands);
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::no_such_file_or_directory) throw;
     throw std::runtime_error(
-        "plots are drawn by gnuplot, which is not installed (Debian: apt install gnuplot-nox)");
+        "the plots need gnuplot, which is not installed (Debian: apt install gnuplot-nox)");
   }
   if (gnuplot.status != 0 || !gnuplot.out.ends_with("</svg>\n\n")) {
     throw std::runtime_error(fmt::format("gnuplot failed with status {}: {}", gnuplot.status, gnuplot.err));
@@ -205,8 +205,8 @@ std::string draw(const std::string& commands) {
   return gnuplot.out;
 }
 
-/// gnuplot gives the same ids to the symbols of each picture; and a title to each group, which a browser
-/// would show, but which is its id. (Only what is in a tag is an id: text has no '<'.)
+/// Makes ids unique to this picture, because gnuplot uses the same ones in each. Removes the title of each
+/// group, which is only its id but would be shown by browsers. (Ids occur only inside tags: text has no '<'.)
 std::string with_own_ids(const std::string& picture, const std::string& id) {
   static const std::regex definition(R"re((<[^<>]*\bid=['"])(?!\w+_plot_))re");
   static const std::regex use(R"re((<[^<>]*\bhref='#))re");
@@ -216,10 +216,11 @@ std::string with_own_ids(const std::string& picture, const std::string& id) {
   return std::regex_replace(result, use, "$1" + id + "-");
 }
 
-/// The picture as an element of a page: its own head instead of gnuplot's, which names gnuplot's version.
+/// The picture as an element of a page. Replaces gnuplot's header, which contains gnuplot's version.
 std::string as_element(const std::string& picture, const Plot& plot) {
   const std::size_t content = picture.find("<g id=\"gnuplot_canvas\">");
-  if (content == std::string::npos) throw std::runtime_error("gnuplot wrote an SVG of another kind than 5.4");
+  if (content == std::string::npos)
+    throw std::runtime_error("gnuplot wrote an unexpected SVG (not like version 5.4)");
   return fmt::format(
       "<svg class=\"plot\" viewBox=\"0 0 {} {}\" xmlns=\"http://www.w3.org/2000/svg\" "
       "xmlns:xlink=\"http://www.w3.org/1999/xlink\" role=\"img\" aria-label=\"{}\">\n{}",

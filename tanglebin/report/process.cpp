@@ -17,12 +17,12 @@ namespace {
   throw std::system_error(error, std::generic_category(), what);
 }
 
-/// A file without a name, which goes when it is closed. Unlike a pipe it takes any number of bytes at once,
-/// so that neither side ever waits for the other.
+/// A file without a name, which is deleted when closed. Unlike a pipe, it takes any number of bytes at once,
+/// so neither side waits for the other.
 class NamelessFile {
 public:
   NamelessFile() : file_(std::tmpfile()) {
-    if (!file_) fail(errno, "cannot make a temporary file");
+    if (!file_) fail(errno, "cannot create a temporary file");
   }
 
   int descriptor() const { return fileno(file_.get()); }
@@ -52,7 +52,7 @@ private:
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// Which files a process has as its standard input, output and error.
+/// Redirects a process's standard input, output and error.
 class FileActions {
 public:
   FileActions(const NamelessFile& in, const NamelessFile& out, const NamelessFile& err) {

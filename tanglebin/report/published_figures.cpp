@@ -70,7 +70,7 @@ std::optional<double> published_generation_time(std::string_view set, int tubes)
 }
 
 std::optional<double> published_modelling_time(std::string_view set, int tubes, double ratio) {
-  // Ratios that were counted up in steps of 0.1 are not the last bit of those written here.
+  // Ratios computed in steps of 0.1 may differ from those written here in the last bit.
   const auto is_row = [&](const Table2Row& row) { return std::abs(row.ratio - ratio) < 1e-9; };
   const auto* const row = std::ranges::find_if(table_2, is_row);
   const auto* const column = std::ranges::find(table_2_tubes, tubes);

@@ -11,7 +11,7 @@
 namespace tanglebin {
 namespace {
 
-/// Micro-recall at one place of the horizontal axis.
+/// Micro-recall at one x.
 struct RecallPoint {
   double x;
   Summary recall;
@@ -24,7 +24,7 @@ struct RecallLine {
   std::vector<RecallPoint> points;
 };
 
-/// What the horizontal axis counts.
+/// The horizontal axis.
 struct Axis {
   std::string label;
   double (*x)(const RunScore&);
@@ -79,7 +79,7 @@ PlotSeries measured_series(const RecallLine& line) {
   return series;
 }
 
-/// The paper's numbers, once for all methods.
+/// The paper's numbers, shared by all methods.
 std::vector<PlotSeries> published_series(const std::vector<RunScore>& scores, const Axis& axis) {
   std::vector<PlotSeries> result;
   for (const std::string& set : distinct(scores, [](const RunScore& score) { return score.run.id.set; })) {
@@ -94,7 +94,7 @@ std::vector<PlotSeries> published_series(const std::vector<RunScore>& scores, co
   return result;
 }
 
-/// "Set A falls from 0.95 at 1 to 0.87 at 20": what a line says, for those who cannot see it.
+/// A line in words, for readers who cannot see it, such as "Set A: 0.950 at 1, 0.870 at 20".
 std::string in_words(const RecallLine& line) {
   const RecallPoint& first = line.points.front();
   const RecallPoint& last = line.points.back();
@@ -123,7 +123,7 @@ std::string plot_of(const std::vector<RunScore>& scores, const std::vector<Recal
 
 HtmlTable table_of(const RecallLine& line, const Axis& axis, const std::string& figure) {
   HtmlTable table{
-      .caption_html = fmt::format("<b>{}, {}.</b> Micro-recall of its cases.", figure, escaped(line.name)),
+      .caption_html = fmt::format("<b>{}, {}.</b> Micro-recall of the cases.", figure, escaped(line.name)),
       .columns = {{.heading = axis.label, .group = ""}},
       .rows = {}};
   for (const char* heading : {"n", "mean", "SD", "min", "Q1", "median", "Q3", "max"}) {
@@ -152,12 +152,11 @@ std::string tables_of(const std::vector<RecallLine>& lines, const Axis& axis, co
 // ---------------------------------------------------------------------------------------------------
 
 constexpr const char* reading_aid =
-    "Points: means. Bars: from the first to the third quartile, the middle half of the cases. The vertical "
-    "axis "
-    "need not begin at 0.";
+    "Points: means. Bars: first to third quartile (the middle half of the cases). The vertical axis may not "
+    "start at 0.";
 
 constexpr const char* no_scores =
-    "The results have no scores (<code>results.jsonl</code>), so that there is nothing to plot.";
+    "The results have no scores (<code>results.jsonl</code>), so there is nothing to plot.";
 
 std::string plot_figure(const std::string& plot, const std::string& caption_html) {
   return fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", plot, caption_html);
@@ -167,9 +166,8 @@ std::string figure_8_note(const std::vector<RecallLine>& lines) {
   if (std::ranges::none_of(lines, has_published)) return {};
   return paragraph(
       "note",
-      "Published: stated in the paper's text for set B at ratio 0.3, as approximations: 0.867 for one tube, "
-      "3.9 % more "
-      "for two and 4.1 % less than for one for ten. The paper prints no other number of its Figure 8.");
+      "Published: approximate values for set B at ratio 0.3 from the paper's text: 0.867 for one tube, 3.9 % "
+      "more than that for two and 4.1 % less for ten. The paper prints no other numbers of its Figure 8.");
 }
 
 }  // namespace
@@ -182,15 +180,15 @@ std::string recall_by_tubes(const Results& results) {
   const auto lines = lines_of(results, scores, tubes_axis);
   std::string content;
   if (std::abs(ratio - figure_8_ratio) > 1e-9) {
-    content += paragraph("note",
-                         fmt::format("The ratio of the paper's Figure 8, {}, was not run; {} is the nearest.",
-                                     figure_8_ratio, ratio_text(ratio)));
+    content += paragraph(
+        "note", fmt::format("The ratio of the paper's Figure 8, {}, was not run; this shows the nearest, {}.",
+                            figure_8_ratio, ratio_text(ratio)));
   }
   content += plot_figure(
       plot_of(scores, lines, tubes_axis, "plot_8", "number of tubes"),
       fmt::format("<b>Figure 8.</b> Micro-recall by number of tubes at downsampling ratio {}. {}{}",
                   ratio_text(ratio), reading_aid,
-                  std::ranges::any_of(lines, has_published) ? " Diamonds: stated in the paper's text." : ""));
+                  std::ranges::any_of(lines, has_published) ? " Diamonds: from the paper's text." : ""));
   return section_html("figure-8", heading,
                       content + figure_8_note(lines) + tables_of(lines, tubes_axis, "Figure 8"));
 }
@@ -204,15 +202,15 @@ std::string recall_by_ratio(const Results& results) {
   std::string content;
   if (tubes != figure_9_tubes) {
     content += paragraph(
-        "note", fmt::format("The number of tubes of the paper's Figure 9, {}, was not run; {} is the "
-                            "nearest.",
+        "note", fmt::format("The number of tubes of the paper's Figure 9, {}, was not run; this shows the "
+                            "nearest, {}.",
                             figure_9_tubes, tubes));
   }
   content += plot_figure(
       plot_of(scores, lines, ratio_axis, "plot_9", "downsampling ratio"),
       fmt::format(
           "<b>Figure 9.</b> Micro-recall by downsampling ratio in bins with {}. {} The paper prints no "
-          "number of its Figure 9.",
+          "numbers of its Figure 9.",
           counted(static_cast<std::size_t>(tubes), "tube"), reading_aid));
   return section_html("figure-9", heading, content + tables_of(lines, ratio_axis, "Figure 9"));
 }

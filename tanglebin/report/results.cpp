@@ -27,7 +27,7 @@ double share_of(const JsonRecord& record, const std::string& field) {
 // ---- Files
 // -------------------------------------------------------------------------------------------------
 
-/// `read` of each line of a file, none where the file does not exist.
+/// Calls `read` for each line of a file; empty if the file does not exist.
 template <typename Value, typename Read>
 std::vector<Value> read_lines(const fs::path& file, const Read& read) {
   std::vector<Value> values;
@@ -48,8 +48,7 @@ std::vector<Value> read_records(const fs::path& file, Value (*read)(const JsonRe
 
 ExperimentRecord read_experiment(const fs::path& file) {
   if (!fs::exists(file)) {
-    throw InputError({file.string(), 0, ""},
-                     "is missing: a results directory, which `tanglebin experiment` writes, has it");
+    throw InputError({file.string(), 0, ""}, "is missing: not a results directory of `tanglebin experiment`");
   }
   const JsonRecord record(read_file(file), file.string(), 0);
   return {.version = record.text("version"),
@@ -86,7 +85,7 @@ RunTime time_of(const JsonRecord& record) {
   return {.run = run_of(record), .seconds = record.number("seconds", 0, infinity)};
 }
 
-/// A file of the results directory; no other is read.
+/// The path of a file, which must be inside the results directory.
 std::string path_inside(const JsonRecord& record, const std::string& field) {
   std::string text = record.text(field);
   const fs::path path(text);
@@ -110,11 +109,11 @@ CasePictures pictures_of(const JsonRecord& record) {
   return pictures;
 }
 
-/// The bytes of a picture; none where it is missing.
+/// The bytes of a picture; empty if it is missing.
 std::string read_png(const fs::path& directory, const std::string& name) {
   constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
   const fs::path file = directory / name;
-  std::error_code error;  // of a name that is too long: reading says so
+  std::error_code error;  // of a name that is too long, which reading reports
   if (!fs::exists(file, error) && !error) return {};
   std::string bytes = read_file(file);
   if (!bytes.starts_with(signature))

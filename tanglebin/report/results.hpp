@@ -10,10 +10,10 @@
 #include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/recipe/case_id.hpp"
 
-// What a results directory holds (docs/formats.md).
+// The contents of a results directory (docs/formats.md).
 namespace tanglebin {
 
-/// What the results follow from (experiment.json).
+/// The settings that the results depend on (experiment.json).
 struct ExperimentRecord {
   std::string version;  ///< of Tanglebin
   std::uint64_t dataset_seed = 0;
@@ -24,14 +24,14 @@ struct ExperimentRecord {
   std::string recipe_sha256;
 };
 
-/// A method run on a case with a downsampling ratio.
+/// Identifies a run: a case, a method and a downsampling ratio.
 struct RunKey {
   CaseId id;
   std::string method;
   double ratio = 1;
 };
 
-/// What a run was worth (results.jsonl); docs/metrics.md defines the measures.
+/// The score of a run (results.jsonl). docs/metrics.md defines the measures.
 struct RunScore {
   RunKey run;
   double micro_recall = 0;
@@ -39,7 +39,7 @@ struct RunScore {
   double f1 = 0;
   double panoptic_quality = 0;
   double adjusted_rand_index = 0;
-  std::optional<double> centre_line_error;  ///< m; none where no tube was found
+  std::optional<double> centre_line_error;  ///< m; none if no tube was found
   std::size_t true_joins = 0;
   std::size_t joins_found = 0;  ///< of the true ones
   std::size_t joins_made = 0;   ///< true or not
@@ -51,29 +51,29 @@ struct RunTime {
   double seconds = 0;  ///< wall clock
 };
 
-/// A case to look at (pictures.jsonl).
+/// Pictures of a case (pictures.jsonl).
 struct CasePictures {
   RunKey run;
   std::string rank;  ///< "best", "median" or "worst" of its method's runs
   double micro_recall = 0;
-  std::string truth_file;   ///< PNG, as the results name it
-  std::string truth_png;    ///< its bytes; empty where it is missing
-  std::string labels_file;  ///< PNG of the method's labels
+  std::string truth_file;   ///< PNG file, as named in the results
+  std::string truth_png;    ///< its bytes; empty if it is missing
+  std::string labels_file;  ///< PNG file with the method's labels
   std::string labels_png;
 };
 
-/// A results directory.
+/// The contents of a results directory.
 struct Results {
   ExperimentRecord experiment;
   std::vector<RunScore> scores;
   std::vector<RunTime> times;
-  std::vector<TimesRecord> generation;  ///< the dataset's times; empty where they are not known
+  std::vector<TimesRecord> generation;  ///< the dataset's times; empty if unknown
   std::vector<CasePictures> pictures;
-  bool unfinished = false;  ///< a run was cut off, or is under way
+  bool unfinished = false;  ///< a run was interrupted or is in progress
 };
 
-/// Reads what `tanglebin experiment` wrote. Only experiment.json must be there: of the other files, what is
-/// missing is empty. Throws InputError with file, line and field for what `experiment` does not write.
+/// Reads the output of `tanglebin experiment`. Only experiment.json is required; data of other missing files
+/// is empty. Throws InputError with file, line and field for anything that `experiment` does not write.
 Results read_results_directory(const std::filesystem::path& directory);
 
 }  // namespace tanglebin

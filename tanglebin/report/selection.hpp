@@ -10,16 +10,16 @@
 #include "tanglebin/report/published_figures.hpp"
 #include "tanglebin/report/results.hpp"
 
-// Which results a table or a plot shows.
+// Selects the results for a table or a plot.
 namespace tanglebin {
 
-/// The runs of a method on a set: what a line of a plot shows.
+/// The runs of a method on a set: a line in a plot.
 struct RunGroup {
   std::string set;
   std::string method;
 };
 
-/// key(record) of every record, each once, ascending.
+/// The distinct values of key(record), ascending.
 template <typename Record, typename Key>
 auto distinct(const std::vector<Record>& records, const Key& key) {
   std::vector<std::decay_t<decltype(key(records.front()))>> values;
@@ -29,7 +29,7 @@ auto distinct(const std::vector<Record>& records, const Key& key) {
   return values;
 }
 
-/// Those records for which `is_wanted` holds.
+/// The records for which `is_wanted` holds.
 template <typename Record, typename IsWanted>
 std::vector<Record> chosen(const std::vector<Record>& records, const IsWanted& is_wanted) {
   std::vector<Record> result;
@@ -55,13 +55,13 @@ inline int tubes_of(const TimesRecord& times) {
   return times.id.tubes;
 }
 
-/// The group of a RunScore or RunTime.
+/// True if a RunScore or RunTime belongs to the group.
 template <typename Record>
 bool is_of(const Record& record, const RunGroup& group) {
   return record.run.id.set == group.set && record.run.method == group.method;
 }
 
-/// Every group there are records of, in their order.
+/// The groups of the records, in order of appearance.
 template <typename Record>
 std::vector<RunGroup> groups_of(const std::vector<Record>& records) {
   std::vector<RunGroup> groups;
@@ -72,19 +72,19 @@ std::vector<RunGroup> groups_of(const std::vector<Record>& records) {
   return groups;
 }
 
-/// The one of some values, at least one, that is nearest to `wanted`; the smaller of two that are as near.
+/// The value nearest to `wanted`, of at least one; the smaller of two at the same distance.
 template <typename Value>
 Value nearest(const std::vector<Value>& ascending, Value wanted) {
   const auto distance = [&](Value value) { return std::abs(static_cast<double>(value - wanted)); };
   return *std::ranges::min_element(ascending, {}, distance);
 }
 
-/// The ratio that Figure 8 and the other measures are shown at, of the scores, which are not empty.
+/// The ratio shown in Figure 8 and in the other measures. `scores` must not be empty.
 inline double shown_ratio(const std::vector<RunScore>& scores) {
   return nearest(distinct(scores, [](const RunScore& score) { return score.run.ratio; }), figure_8_ratio);
 }
 
-/// The number of tubes that Figure 9 is shown for.
+/// The number of tubes shown in Figure 9.
 inline int shown_tubes(const std::vector<RunScore>& scores) {
   return nearest(distinct(scores, [](const RunScore& score) { return tubes_of(score); }), figure_9_tubes);
 }

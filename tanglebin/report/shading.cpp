@@ -27,8 +27,8 @@ bool is_background(const SurfaceSample& sample) {
 // ---- Light
 // -------------------------------------------------------------------------------------------------
 
-/// A key light over the viewer's left shoulder, a headlight, and ambient light. They come along with the
-/// viewer, so that no side of a scene is dark.
+/// A key light over the viewer's left shoulder, a headlight, and ambient light. They move with the viewer, so
+/// no side of a scene is dark.
 class Lights {
 public:
   explicit Lights(const Camera& camera)
@@ -43,7 +43,7 @@ public:
     constexpr float highlight = 0.12F;
     const float diffuse = ambient + key * std::max(0.0F, sample.normal.dot(to_key_)) +
                           headlight * std::max(0.0F, sample.normal.dot(to_viewer_));
-    // Blinn-Phong: the exponent of a matt plastic.
+    // Blinn-Phong, with the exponent of matt plastic.
     const float specular = highlight * std::pow(std::max(0.0F, sample.normal.dot(halfway_)), 40.0F);
     return diffuse * to_vector(sample.color) + Vector3f::Constant(255.0F * specular);
   }
@@ -67,7 +67,7 @@ void sum_neighbours(DepthSum* values, int count, std::ptrdiff_t stride, int radi
                     std::vector<DepthSum>& line) {
   line.resize(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < line.size(); ++i) line[i] = values[static_cast<std::ptrdiff_t>(i) * stride];
-  // In double precision, as the sum goes along the whole line.
+  // In double precision, because the sum runs along the whole line.
   double depth = 0;
   double samples = 0;
   const auto add = [&](int i, double sign) {
@@ -84,8 +84,8 @@ void sum_neighbours(DepthSum* values, int count, std::ptrdiff_t stride, int radi
   }
 }
 
-/// The mean depth around each sample: three box filters in a row come near to a Gaussian. The background has
-/// no part in it.
+/// The mean depth around each sample, by three box filters, which approximate a Gaussian. Ignores the
+/// background.
 std::vector<DepthSum> blurred_depth(const SurfaceImage& image, int radius) {
   std::vector<DepthSum> sums;
   sums.reserve(image.samples.size());
@@ -101,11 +101,11 @@ std::vector<DepthSum> blurred_depth(const SurfaceImage& image, int radius) {
   return sums;
 }
 
-/// How much light is left to each sample where nearer things surround it (Luft, Colditz, Deussen 2006, "Image
-/// enhancement by unsharp masking the depth buffer"): like a contact shadow, it sets crossing tubes of the
-/// same colour apart.
+/// The light that remains at each sample with nearer things around it (Luft, Colditz, Deussen 2006, "Image
+/// enhancement by unsharp masking the depth buffer"). Like a contact shadow, it separates crossing tubes of
+/// the same colour.
 std::vector<float> light_left(const SurfaceImage& image) {
-  constexpr double deepest = 0.025;  // of the depth: what lies this much behind its surroundings is darkest
+  constexpr double deepest = 0.025;  // of the depth; samples this far behind are darkest
   constexpr float darkest = 0.5F;
   const int radius = std::max(1, std::max(image.camera.width, image.camera.height) / 150);
   const std::vector<DepthSum> blurred = blurred_depth(image, radius);
@@ -120,7 +120,7 @@ std::vector<float> light_left(const SurfaceImage& image) {
   return light;
 }
 
-/// Whether one of the four samples beside this one is such that holds(sample, neighbour).
+/// True if holds(sample, neighbour) for one of the four adjacent samples.
 template <class Relation>
 bool any_neighbour(const SurfaceImage& image, int u, int v, Relation holds) {
   const SurfaceSample& sample = image.at(u, v);

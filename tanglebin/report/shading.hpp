@@ -16,8 +16,8 @@ struct SurfaceSample {
   float depth = std::numeric_limits<float>::infinity();  ///< m, along the camera's z axis; ∞: background
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();      ///< unit, world frame, towards the camera
   Color color{};                                         ///< unshaded
-  std::int32_t object = 0;                               ///< different objects are set apart by a line
-  int glass = 0;  ///< which transparent wall it is seen through; 0: none
+  std::int32_t object = 0;                               ///< different objects are separated by a line
+  int glass = 0;                                         ///< the transparent wall in front of it; 0: none
 };
 
 /// What is to be shaded: camera.width * camera.height samples, row by row.
@@ -45,11 +45,10 @@ struct Picture {
 
 inline constexpr Color background_color{250, 250, 250};
 
-/// Samples of a SurfaceImage in a row, and in a column, of one pixel of the picture.
+/// Samples per pixel of the picture, in each direction.
 inline constexpr int supersampling = 2;
 
-/// Lights the samples, sets near things apart from what lies behind them, and averages the samples of each
-/// pixel.
+/// Lights the samples, separates near objects from those behind them, and averages the samples of each pixel.
 Picture shade(const SurfaceImage& image);
 
 }  // namespace tanglebin

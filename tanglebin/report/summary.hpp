@@ -6,11 +6,11 @@
 
 namespace tanglebin {
 
-/// What a sample of numbers comes to.
+/// Statistics of a sample.
 struct Summary {
   std::size_t count = 0;
   double mean = 0;
-  std::optional<double> standard_deviation;  ///< of the population, estimated: n − 1; none of a single number
+  std::optional<double> standard_deviation;  ///< estimated with n − 1; none for a single number
   double least = 0;
   double first_quartile = 0;  ///< quartiles interpolate between neighbours (Hyndman and Fan 1996, type 7)
   double median = 0;

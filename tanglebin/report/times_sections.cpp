@@ -1,4 +1,4 @@
-// Tables 1 and 2: how long things took.
+// Tables 1 and 2: times.
 #include <fmt/format.h>
 
 #include "tanglebin/report/html.hpp"
@@ -10,7 +10,7 @@
 namespace tanglebin {
 namespace {
 
-/// A case of one tube takes a few hundredths of a second.
+/// Three, because a case with one tube takes a few hundredths of a second.
 constexpr int decimals = 3;
 
 double generation_seconds(const TimesRecord& record) {
@@ -20,10 +20,9 @@ double generation_seconds(const TimesRecord& record) {
 
 std::string note_on_hardware() {
   return paragraph(
-      "note",
-      fmt::format("All times are means of wall-clock time. The published ones come from other hardware "
-                  "({}), so that a ratio compares machines as well as programs.",
-                  escaped(published_machine)));
+      "note", fmt::format("All times are mean wall-clock times. The published times are from other hardware "
+                          "({}), so the ratios compare machines as well as programs.",
+                          escaped(published_machine)));
 }
 
 // ---- Table 1
@@ -65,7 +64,7 @@ void add_table_1_cells(std::vector<std::string>& row, const std::vector<TimesRec
 HtmlTable table_1(const std::vector<TimesRecord>& records) {
   const std::vector<std::string> sets = sets_of(records);
   HtmlTable table{.caption_html =
-                      "<b>Table 1.</b> Mean time to generate a case, beside Table 1 of the paper; ratio: "
+                      "<b>Table 1.</b> Mean time to generate a case, beside the paper's Table 1. Ratio: "
                       "time divided by published time.",
                   .columns = table_1_columns(sets),
                   .rows = {}};
@@ -114,10 +113,10 @@ HtmlTable table_2(const Results& results, const RunGroup& group) {
       chosen(results.times, [&](const RunTime& time) { return is_of(time, group); });
   const std::vector<int> tube_counts = distinct(times, [](const RunTime& time) { return tubes_of(time); });
   HtmlTable table{
-      .caption_html = fmt::format("<b>Table 2, {}.</b> Mean time to model the tubes of a case, in seconds; "
-                                  "rows: downsampling ratio; columns: number of tubes{}.",
+      .caption_html = fmt::format("<b>Table 2, {}.</b> Mean time to model the tubes of a case, in seconds. "
+                                  "Rows: downsampling ratio. Columns: number of tubes{}.",
                                   escaped(group_text(group, results)),
-                                  group.set == "A" ? "; publ.: Table 2 of the paper" : ""),
+                                  group.set == "A" ? ". Publ.: the paper's Table 2" : ""),
       .columns = table_2_columns(group.set, tube_counts),
       .rows = {}};
   for (const double ratio : distinct(times, [](const RunTime& time) { return time.run.ratio; })) {
@@ -139,13 +138,12 @@ HtmlTable table_2(const Results& results, const RunGroup& group) {
 std::string generation_times(const Results& results) {
   std::string content;
   if (results.generation.empty()) {
-    content =
-        paragraph("missing", "The results have no times of generation (<code>generation.jsonl</code>).");
+    content = paragraph("missing", "The results have no generation times (<code>generation.jsonl</code>).");
   } else {
     content = html(table_1(results.generation)) + note_on_hardware() +
               paragraph("note",
-                        "The paper's simulation ran at three times real time; Tanglebin's runs as fast as it "
-                        "can. A case's time includes the attempts that gave no valid scene.");
+                        "The paper's simulation ran at three times real time; Tanglebin's runs as fast as "
+                        "possible. A case's time includes rejected attempts.");
   }
   return section_html("table-1", "Generation time", content);
 }
@@ -154,7 +152,7 @@ std::string modelling_times(const Results& results) {
   std::string content;
   for (const RunGroup& group : groups_of(results.times)) content += html(table_2(results, group));
   if (content.empty()) {
-    content = paragraph("missing", "The results have no times of modelling (<code>times.jsonl</code>).");
+    content = paragraph("missing", "The results have no modelling times (<code>times.jsonl</code>).");
   } else {
     content += note_on_hardware();
   }

@@ -33,7 +33,7 @@ void require_size(int pixels, const char* field) {
           "1 to " + std::to_string(largest_picture) + " pixels");
 }
 
-/// Camera frame → world frame for a viewer in this direction who looks at the scene, upright.
+/// Camera frame → world frame, for a viewer in this direction who looks at the scene, upright.
 Matrix3d orientation(const View& view) {
   const double sin_azimuth = std::sin(view.azimuth);
   const double cos_azimuth = std::cos(view.azimuth);
@@ -59,7 +59,7 @@ void validate(const View& view) {
 Camera camera_for(const View& view, int scale, const std::vector<Vector3d>& points, const std::string& name) {
   for (const Vector3d& point : points) require_near(point, name);
 
-  // A field of view of about 37° along the longer side: perspective, but no wide-angle look.
+  // Field of view of about 37° along the longer side: some perspective, but no wide-angle look.
   constexpr double focal_length = 1.5;  // in units of the longer side
   constexpr double used = 0.94;         // of the image; the rest is a margin
   constexpr double smallest_radius = 1e-6;
@@ -73,9 +73,9 @@ Camera camera_for(const View& view, int scale, const std::vector<Vector3d>& poin
   Eigen::AlignedBox3d box;
   for (const Vector3d& point : points) box.extend(point);
 
-  // In a frame of the camera's orientation at the box's centre, a camera at (x, y, -distance) sees the point
-  // p if |p.x - x| <= slope_x * (p.z + distance), and likewise for y: four bounds that each a single point
-  // sets.
+  // In a frame with the camera's orientation at the box's centre, a camera at (x, y, -distance) sees the
+  // point p if |p.x - x| <= slope_x * (p.z + distance), and likewise for y. Each of these four bounds is set
+  // by a single point.
   const Matrix3d rotation = orientation(view);
   constexpr double none = -std::numeric_limits<double>::infinity();
   double right = none;
@@ -89,7 +89,7 @@ Camera camera_for(const View& view, int scale, const std::vector<Vector3d>& poin
     below = std::max(below, p.y() - slope_y * p.z());
     above = std::max(above, -p.y() - slope_y * p.z());
   }
-  // Never so near that a flat scene seen from its edge lies in the camera.
+  // Never so near that the camera is inside a flat scene seen from its edge.
   const double radius = std::max(box.diagonal().norm() / 2, smallest_radius);
   const double distance =
       std::max({1.5 * radius, (right + left) / (2 * slope_x), (below + above) / (2 * slope_y)});

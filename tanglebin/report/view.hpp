@@ -9,7 +9,7 @@
 
 namespace tanglebin {
 
-/// From where a picture shows a scene, and how large it is.
+/// The direction and size of a picture.
 struct View {
   double azimuth = -std::numbers::pi / 3;   ///< rad, of the viewer, about z, from +x towards +y
   double elevation = std::numbers::pi / 4;  ///< rad, of the viewer, above the horizontal, in [−π/2, π/2]
@@ -17,17 +17,17 @@ struct View {
   int height = 900;                         ///< pixels, in [1, largest_picture]
 };
 
-inline constexpr int largest_picture = 4096;  ///< pixels a side; a square one takes 4 GB to draw
+inline constexpr int largest_picture = 4096;  ///< pixels per side; drawing a square one takes 4 GB
 
-/// Throws InputError naming the field that makes no view.
+/// Throws InputError naming the invalid field.
 void validate(const View& view);
 
-/// Coordinates beyond this make no picture, m.
+/// The largest coordinate that can be drawn, m.
 inline constexpr double farthest_in_picture = 1e7;
 
-/// A camera in the view's direction, as near as it can be with all `points` (m, at least one) in its image;
-/// `scale` times as many pixels as the view has on each side. Throws InputError with `name` for a point
-/// beyond farthest_in_picture.
+/// A camera that looks in the view's direction, as near as possible with all `points` (m, at least one) in
+/// the image. The image has `scale` times the view's pixels on each side. Throws InputError with `name` for a
+/// point beyond farthest_in_picture.
 Camera camera_for(const View& view, int scale, const std::vector<Eigen::Vector3d>& points,
                   const std::string& name);
 

@@ -15,7 +15,7 @@
 namespace tanglebin {
 namespace {
 
-// The world's x to the right and y up.
+// With the world's x to the right and y up.
 constexpr View from_above{
     .azimuth = -std::numbers::pi / 2, .elevation = std::numbers::pi / 2, .width = 900, .height = 640};
 
@@ -24,7 +24,7 @@ void draw(const PointCloud& cloud, const std::filesystem::path& file, const std:
   write_file(file, color_png(picture.width, picture.height, picture.pixels));
 }
 
-// Draws an example; returns its line of pictures.jsonl.
+// Draws an example and returns its line of pictures.jsonl.
 std::string draw_example(const Example& example, const std::filesystem::path& directory,
                          const Dataset& dataset, const ExperimentSettings& settings) {
   const auto& [run, micro_recall, json] = example.result;

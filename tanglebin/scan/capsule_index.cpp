@@ -13,38 +13,38 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Embree solves a quadratic equation whose leading coefficient is sin² of the angle between ray and axis: in
-// single precision it loses hits where that angle is small, and reports none where it is zero. Capsules whose
-// axis is closer than this to a ray are candidates without being asked for.
+// Embree solves a quadratic equation whose leading coefficient is sin² of the angle between ray and axis. In
+// single precision it loses hits if that angle is small, and reports none if it is zero. Capsules whose axis
+// is closer than this to a ray are always candidates.
 constexpr double end_on_angle = 0.05;  // rad
 
-// Embree sees nothing of a round curve whose ends coincide. A capsule much shorter than its radius is always
-// a candidate.
+// Embree ignores a round curve whose ends coincide. A capsule much shorter than its radius is always a
+// candidate.
 constexpr double shortest_length = 0.1;  // radii
 
-/// So much larger that rounding does not make Embree miss it. With e = 2⁻²⁴, s the sine of the angle between
-/// ray and axis and L the length, rounding changes the discriminant of Embree's quadratic equation as much as
-/// a change of radius² by c e (2 L² + 2 L radius / s) does, c less than 10; and rounding of coordinates
-/// displaces what lies within `scene_radius` by less than 1e-6 of it. For s > sin(end_on_angle) this exceeds
-/// both.
+/// A radius enlarged so that rounding does not make Embree miss a hit. Let e = 2⁻²⁴, s the sine of the angle
+/// between ray and axis, and L the length. Rounding changes the discriminant of Embree's quadratic equation
+/// as much as a change of radius² by c e (2 L² + 2 L radius / s), with c less than 10. Rounding of
+/// coordinates displaces what lies within `scene_radius` by less than 1e-6 of it. For s > sin(end_on_angle)
+/// the enlargement exceeds both.
 double radius_for_single_precision(double radius, double length, double scene_radius) {
   return std::sqrt(1.01 * radius * radius + 1e-5 * length * length) + 1e-6 * scene_radius;
 }
 
-/// One query and what it found.
+/// A query with its result.
 struct Query : RTCIntersectContext {
   std::vector<std::size_t>* found;
 };
 
-/// Embree's filter function: takes note of the capsule and rejects the hit, so that Embree goes on to all
-/// others along the ray.
+/// Embree's filter function: notes the capsule and rejects the hit, so that Embree continues to all others
+/// along the ray.
 void note_and_reject(const RTCFilterFunctionNArguments* arguments) {
   const auto& query = *static_cast<const Query*>(arguments->context);
   query.found->push_back(RTCHitN_primID(arguments->hit, arguments->N, 0));
   arguments->valid[0] = 0;
 }
 
-/// Each capsule has two vertices of its own: without a neighbour, Embree closes both ends with a sphere.
+/// Each capsule has two vertices of its own. Without a neighbour, Embree closes both ends with a sphere.
 void add_capsules(RTCDevice device, RTCScene scene, const std::vector<Capsule>& capsules) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
   auto* vertex = static_cast<Eigen::Vector4f*>(rtcSetNewGeometryBuffer(
@@ -78,8 +78,7 @@ Eigen::AlignedBox3d bounding_box(const std::vector<Capsule>& capsules) {
   return box;
 }
 
-// Two rays from one point that deviate by an angle are, at a distance, no further apart than distance ·
-// sin(angle).
+// Two rays from one point that deviate by an angle are at most distance · sin(angle) apart.
 double radius_for_beam(const Capsule& capsule, const BeamShape& beam) {
   const double farthest = std::max((capsule.a - beam.origin).norm(), (capsule.b - beam.origin).norm());
   return capsule.radius + (farthest + capsule.radius) * beam.spread;
@@ -118,7 +117,7 @@ CapsuleIndex::CapsuleIndex(const std::vector<Capsule>& capsules, const BeamShape
     if (length < shortest_length * capsule.radius) stubs_.push_back(i);
     axes_.push_back((capsule.b - capsule.a).normalized());
     capsule.radius = radius_for_single_precision(capsule.radius, length, radius_);
-    // Near the origin, coordinates in single precision are accurate to the scene's size.
+    // Near the origin, single-precision coordinates are accurate relative to the scene's size.
     capsule.a -= centre_;
     capsule.b -= centre_;
   }
@@ -136,7 +135,7 @@ void CapsuleIndex::candidates(const Vector3d& direction, std::vector<std::size_t
     if (std::abs(axes_[i].dot(direction)) > end_on_cosine) found.push_back(i);
   }
 
-  // Embree's ray starts where it may reach the sphere around all capsules, for the sake of accuracy again.
+  // Also for accuracy, Embree's ray starts where it may reach the sphere around all capsules.
   const Vector3d to_centre = centre_ - origin_;
   const double start = std::max(0.0, to_centre.dot(direction) - radius_);
   const Eigen::Vector3f from = (start * direction - to_centre).cast<float>();
@@ -156,7 +155,7 @@ void CapsuleIndex::candidates(const Vector3d& direction, std::vector<std::size_t
   query.found = &found;
   rtcIntersect1(embree_->scene, &query, &rayhit);
 
-  // Embree reports where the ray enters a capsule and where it leaves.
+  // Embree reports both where the ray enters a capsule and where it leaves.
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
 }

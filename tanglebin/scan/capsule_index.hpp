@@ -9,32 +9,31 @@
 
 namespace tanglebin {
 
-/// The smallest axis-aligned box around capsules; empty for none.
+/// The smallest axis-aligned box around the capsules; empty if there are none.
 Eigen::AlignedBox3d bounding_box(const std::vector<Capsule>& capsules);
 
-/// All rays from one point whose directions deviate little from a central one.
+/// The shape of a beam: all rays from one point whose directions deviate little from a central one.
 struct BeamShape {
   Eigen::Vector3d origin;  ///< m, world frame
-  double spread;           ///< sine of the largest angle between the central direction and a ray
+  double spread;           ///< sine of the largest angle between a ray and the central direction
 };
 
-/// The radius (m) with which the central ray of a beam meets the capsule where any ray of the beam meets the
-/// true one, and no later.
+/// Radius (m) of a thickened capsule. Wherever a ray of the beam meets the true capsule, the central ray
+/// meets the thickened one at the same distance or nearer.
 double radius_for_beam(const Capsule& capsule, const BeamShape& beam);
 
-/// Says which capsules the rays of a beam may meet: an Embree scene of capsules, each thickened by the beam's
-/// spread at its distance (radius_for_beam()). What is true for a ray of the beam is then up to
-/// ray_capsule().
+/// Finds the capsules that the rays of a beam may meet: an Embree scene of capsules, each thickened by the
+/// beam's spread at its distance (radius_for_beam()). ray_capsule() then decides for each ray of the beam.
 class CapsuleIndex {
 public:
-  /// For beams of this shape in any direction. Throws std::runtime_error where Embree fails.
+  /// For beams of this shape in any direction. Throws std::runtime_error if Embree fails.
   CapsuleIndex(const std::vector<Capsule>& capsules, const BeamShape& beam);
   ~CapsuleIndex();
   CapsuleIndex(const CapsuleIndex&) = delete;
   CapsuleIndex& operator=(const CapsuleIndex&) = delete;
 
   /// Writes to `found`, in ascending order, the indices of all capsules that a ray of the beam around
-  /// `direction` (a unit vector) meets, and of a few that none does.
+  /// `direction` (a unit vector) meets, and of a few that none meets.
   void candidates(const Eigen::Vector3d& direction, std::vector<std::size_t>& found) const;
 
 private:

@@ -19,16 +19,16 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double farthest_lateral_shift = 6;  // pixels, of the Kinect's noise
+constexpr double farthest_lateral_shift = 6;  // pixels, for the Kinect's noise
 
-/// What one ray of a footprint met.
+/// What one ray of a footprint hit.
 struct Hit {
   Ray ray;
   double depth;  // m, along the optical axis
   LabelledHit first;
 };
 
-/// What a pixel saw.
+/// What a pixel sees.
 struct Sight {
   double depth;
   Vector3d normal;
@@ -38,19 +38,19 @@ struct Sight {
   bool mixed;
 };
 
-/// How far away pixels are that say whether a footprint may straddle an edge: the square of their centres
-/// holds it.
+/// Distance, in pixels, of the neighbours that show whether a footprint may straddle an edge. The square of
+/// their centres contains the footprint.
 int reach_of(const Sensor& sensor) {
   return static_cast<int>(std::ceil(sensor.footprint / 2));
 }
 
-/// Do two neighbouring pixels see one smooth surface? Half the jump of an edge leaves room for a surface that
-/// gets steeper between them.
+/// True if two neighbouring pixels see one smooth surface. The limit of half an edge's jump leaves room for a
+/// surface that gets steeper between them.
 bool see_one_surface(const Pixel& a, const Pixel& b, double edge_jump) {
   return a.label == b.label && (a.label == null_label || std::abs(a.depth - b.depth) <= edge_jump / 2);
 }
 
-/// The pixels of the window whose footprint may straddle an edge.
+/// Marks the pixels of the window whose footprint may straddle an edge.
 std::vector<bool> near_edges(const Scan& ideal, const Sensor& sensor) {
   const PixelWindow& window = ideal.window;
   const auto width = static_cast<std::size_t>(window.width);
@@ -76,7 +76,7 @@ std::vector<bool> near_edges(const Scan& ideal, const Sensor& sensor) {
   return near;
 }
 
-/// Goes through an ideal scan tile by tile, and puts what is measured in each pixel's place.
+/// Walks through an ideal scan tile by tile and replaces each pixel by its measurement.
 class Measurement {
 public:
   Measurement(const Surfaces& surfaces, Scan ideal, const Sensor& sensor, const ScanSeeds& seeds)
@@ -165,9 +165,9 @@ private:
     return is_on_surface_of(own, *hit, shift) ? see_ideal(own) : see_hit(*hit);
   }
 
-  /// Is what a moved ray met the surface that the pixel's own ray met? Then the slope explains how much their
-  /// depths differ: across a plane they do by at most the shift (as an angle) times 1 + tan(incidence) times
-  /// the larger depth, and across a curved surface by no more than where it is steeper.
+  /// True if a shifted ray hit the same surface as the pixel's own ray. Then the slope explains their
+  /// difference in depth: on a plane it is at most the shift (as an angle) times 1 + tan(incidence) times the
+  /// larger depth, and on a curved surface no more than where it is steeper.
   bool is_on_surface_of(const Pixel& own, const Hit& hit, const Vector2d& shift) const {
     if (own.label != hit.first.label) return false;
     const double own_depth = own.depth;
@@ -214,10 +214,10 @@ private:
     return Hit{ray, first->surface.distance * optical_axis_.dot(ray.direction), *first};
   }
 
-  /// From a footprint's centre to its outermost sub-rays, in pixels.
+  /// Distance from a footprint's centre to its outermost sub-rays, in pixels.
   double outermost() const { return (sensor_.footprint - sensor_.footprint / sensor_.sub_rays) / 2; }
 
-  /// Do the sub-rays in the corners of the footprint meet different surfaces?
+  /// True if the sub-rays in the corners of the footprint hit different surfaces.
   bool straddles_edge(double u, double v) {
     const double corner = outermost();
     double nearest = std::numeric_limits<double>::infinity();
@@ -236,8 +236,8 @@ private:
     return hits > 0 && (hits < corners || farthest - nearest > sensor_.edge_jump);
   }
 
-  /// The nearest of the surfaces that a footprint's sub-rays meet, at the mean depth of all, weighted by
-  /// signal; nothing where no signal comes back.
+  /// The nearest surface that the footprint's sub-rays hit, at the mean depth of all of them, weighted by
+  /// signal. None if no signal returns.
   std::optional<Sight> see_mixture(double u, double v) {
     const int n = sensor_.sub_rays;
     const double step = sensor_.footprint / n;

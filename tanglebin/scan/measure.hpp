@@ -10,16 +10,16 @@ namespace tanglebin {
 
 // Internal to the room.
 
-/// How far from a pixel's centre the rays are that it is measured by, in pixels.
+/// Largest distance, in pixels, of a pixel's rays from its centre.
 double ray_margin(const Sensor& sensor);
 
-/// What a scan's random numbers follow from.
+/// The seeds of a scan's random numbers.
 struct ScanSeeds {
-  std::uint64_t scene;    ///< the tubes' material
-  std::uint64_t scanner;  ///< noise, drop-outs and calibration
+  std::uint64_t scene;    ///< of the tubes' materials
+  std::uint64_t scanner;  ///< of noise, drop-outs and calibration
 };
 
-/// What a sensor makes of what an ideal scanner sees.
+/// Turns an ideal scan into what a sensor measures.
 Scan measure(const Surfaces& surfaces, Scan ideal, const Sensor& sensor, const ScanSeeds& seeds);
 
 }  // namespace tanglebin

@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A tile's pixels reach half a pixel over their centres; a little more for rounding.
+// A tile's pixels extend half a pixel beyond their centres; a little more for rounding.
 constexpr double tile_margin = 0.51;
 
 constexpr double contact = 1e-4;  // m

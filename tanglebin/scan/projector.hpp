@@ -12,18 +12,19 @@ namespace tanglebin {
 
 // Internal to the room.
 
-/// Where the projector is and what its image covers, as a camera that sees what it lights.
+/// The projector as a camera: its pose, and an image that covers what it lights.
 Camera projector_beside(const Camera& camera, const Sensor& sensor);
 
-/// Says which points the projector lights. Looks up what its rays may meet once for each tile of its image.
+/// Determines which points the projector lights. The candidates of each tile of its image are looked up only
+/// once.
 class Projector {
 public:
   Projector(const Surfaces& surfaces, const Camera& camera, const Sensor& sensor);
 
   Eigen::Vector3d position() const { return view_.pose.translation(); }  ///< m, world frame
 
-  /// Is the point (m, world frame) of a surface with this normal lit? Neither outside of the projector's
-  /// image nor behind anything that is more than 0.1 mm in front of the point.
+  /// True if a point (m, world frame) of a surface with this normal is lit: it is inside the projector's
+  /// image, and nothing is more than 0.1 mm in front of it.
   bool lights(const Eigen::Vector3d& point, const Eigen::Vector3d& normal);
 
 private:
@@ -33,7 +34,7 @@ private:
   Camera view_;
   TileIndex index_;
   int columns_;                                     ///< of tiles
-  std::vector<std::optional<Candidates>> of_tile_;  ///< those looked up so far
+  std::vector<std::optional<Candidates>> of_tile_;  ///< looked up so far
 };
 
 }  // namespace tanglebin

@@ -13,10 +13,11 @@ namespace tanglebin {
 namespace {
 
 constexpr double right_angle = std::numbers::pi / 2;
-constexpr double steepest = 85 * std::numbers::pi / 180;  // of what Nguyen et al. fitted
+constexpr double steepest = 85 * std::numbers::pi / 180;  // limit of the data that Nguyen et al. fitted
 
-// A sum of waves of random direction, length and phase is a Gaussian process in the limit of many, whose
-// covariance is exp(−d² / 2 length²) where wave vectors are normal with 1 / length (Rahimi and Recht 2007).
+// A sum of waves with random direction, length and phase approaches a Gaussian process. Its covariance is
+// exp(−d² / 2 length²) if the wave vectors are normal with standard deviation 1 / length (Rahimi and Recht
+// 2007).
 constexpr std::size_t waves = 8;
 
 struct Wave {

@@ -9,17 +9,19 @@
 
 namespace tanglebin {
 
-// Internal to the room: how far off a measured range is.
+// Internal to the room: errors of a measured range.
 
-/// m, in depth, of a fronto-parallel disparity's standard deviation (docs/sensor.md).
+/// Standard deviation of the depth, m, that results from disparity noise on a fronto-parallel surface
+/// (docs/sensor.md).
 double disparity_depth_sigma(const Sensor& sensor, const Camera& camera, double depth, double snr);
 
-/// Nguyen, Izadi and Lovell 2012: standard deviation of the depth, m, and of the place in the image, pixels,
-/// of a surface at a depth (m) seen at an angle (rad) from its normal. Angles above 85° count as 85°.
+/// Kinect noise (Nguyen, Izadi and Lovell 2012): standard deviation of the depth, m, and of the lateral
+/// position, pixels, for a surface at a depth (m) seen at an angle (rad) from its normal. Angles above 85°
+/// count as 85°.
 double kinect_axial_sigma(double depth, double incidence);
 double kinect_lateral_sigma(double incidence);
 
-/// The smooth error of calibration of the pixels of a window, m along their rays, row by row.
+/// The smooth calibration error of each pixel in a window, m along its ray, row by row.
 std::vector<float> trueness_errors(const Sensor& sensor, const PixelWindow& window, std::uint64_t seed);
 
 /// The random error of a range.
@@ -27,7 +29,8 @@ class RangeNoise {
 public:
   RangeNoise(const Sensor& sensor, const Camera& camera, std::uint64_t seed);
 
-  /// m along the ray, of the pixel with this number, whose ray makes an angle with the optical axis.
+  /// The error of the pixel with this index, m along its ray. `axial_cosine` is the cosine of the angle
+  /// between the ray and the optical axis.
   double draw(std::uint64_t pixel, double depth, double incidence, double snr, double axial_cosine) const;
 
 private:

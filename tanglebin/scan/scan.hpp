@@ -11,7 +11,7 @@
 
 namespace tanglebin {
 
-/// Part of an image: columns [left, left + width), rows [top, top + height).
+/// A part of an image: columns [left, left + width), rows [top, top + height).
 struct PixelWindow {
   int left = 0;
   int top = 0;
@@ -19,8 +19,8 @@ struct PixelWindow {
   int height = 0;
 };
 
-/// What the ray through one pixel met. All but `label` are NaN where it met nothing, or was not measured.
-/// Depth, range and point are as measured; normal and incidence are the surface's true ones.
+/// What the ray through a pixel hit. If it hit nothing, or was not measured, everything but `label` is NaN.
+/// Depth, range and point are as measured; normal and incidence are those of the true surface.
 struct Pixel {
   float depth;             ///< m, along the camera's z axis
   float range;             ///< m, from the camera's centre to the point
@@ -30,29 +30,29 @@ struct Pixel {
   std::int32_t label;
 };
 
-/// An organized scan: the pixels of `window`, row by row. The image's other pixels cannot see the scene; they
-/// are as those whose ray met nothing.
+/// An organized scan: the pixels of `window`, row by row. The rest of the image cannot see the scene; its
+/// pixels count as rays that hit nothing.
 struct Scan {
   Camera camera;
   PixelWindow window;
   std::vector<Pixel> pixels;  ///< window.width * window.height
 
-  // Of a scan by a sensor; empty where the scanner is ideal
-  std::vector<float> snr{};  ///< of each pixel: the signal-to-noise ratio (docs/sensor.md), which has no unit
-  std::vector<std::uint8_t> mixed{};  ///< of each pixel: 1 where it is the mean of several surfaces
+  // From a sensor; empty for an ideal scanner
+  std::vector<float> snr{};           ///< signal-to-noise ratio of each pixel, unitless (docs/sensor.md)
+  std::vector<std::uint8_t> mixed{};  ///< for each pixel: 1 if it is the mean of several surfaces
 
-  /// The pixel in column u, row v of the whole image; (u, v) must lie in the window.
+  /// The pixel in column u and row v of the whole image; (u, v) must lie in the window.
   const Pixel& at(int u, int v) const { return pixels[index(u, v)]; }
   Pixel& at(int u, int v) { return pixels[index(u, v)]; }
 
-  /// Where the arrays have that pixel.
+  /// Index of that pixel in the arrays.
   std::size_t index(int u, int v) const {
     return static_cast<std::size_t>(v - window.top) * static_cast<std::size_t>(window.width) +
            static_cast<std::size_t>(u - window.left);
   }
 };
 
-/// The pixel of a ray that met nothing.
+/// The pixel of a ray that hit nothing.
 inline Pixel empty_pixel() {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   return {.depth = nan,

@@ -12,7 +12,7 @@ bool is_point(const Pixel& pixel, CloudOf what) {
   return pixel.label >= lowest;
 }
 
-/// So many points that are not there.
+/// A cloud of missing points.
 PointCloud empty_cloud(std::size_t points, const PointProperties& properties) {
   const Eigen::Vector3f nowhere = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
   PointCloud cloud;
@@ -36,7 +36,7 @@ void set_point(PointCloud& cloud, std::size_t point, const Scan& scan, std::size
   if (!cloud.mixed.empty()) cloud.mixed[point] = scan.mixed.empty() ? 0 : scan.mixed[pixel];
 }
 
-/// One value for each pixel of the whole image: `background` outside the scan's window.
+/// A value for each pixel of the whole image, with `background` outside the scan's window.
 template <typename Value, typename ValueOf>
 std::vector<Value> whole_image(const Scan& scan, Value background, ValueOf value_of) {
   const auto width = static_cast<std::size_t>(scan.camera.width);

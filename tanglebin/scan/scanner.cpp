@@ -52,7 +52,7 @@ Scan ideal_scan(const Surfaces& surfaces, const Camera& camera, double window_ma
   return result;
 }
 
-// The one scanner of a scene, which needs no name, has the scene's seed.
+// A scene's only scanner needs no name and uses the scene's seed.
 std::uint64_t seed_of_scanner(std::uint64_t scene_seed, std::string_view scanner) {
   return scanner.empty() ? scene_seed : attempt_seed(scene_seed, scanner, 0, 0, 0);
 }

@@ -11,14 +11,14 @@
 
 namespace tanglebin {
 
-/// The ideal scanner of the paper: one ray through each pixel's centre, no noise.
-/// Only the pixels that can see the bin or a tube are traced. Throws InputError as validate(camera) does.
+/// Scans with the paper's ideal scanner: one ray through each pixel's centre, no noise. Traces only the
+/// pixels that can see the bin or a tube. Throws InputError as validate(camera) does.
 Scan scan(const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera);
 
-/// The same with the terms of a sensor that are switched on (docs/sensor.md); with none, the ideal scan. The
-/// tubes' material follows from the scene's seed, so that several scanners of a scene see the same one; all
-/// else that is random follows from the seed and the scanner's name, term by term and pixel by pixel. Throws
-/// InputError as validate(camera) and validate(sensor) do.
+/// Scans with a sensor (docs/sensor.md); with no term on, this is the ideal scan. The tubes' materials depend
+/// only on the scene's seed, so all scanners of a scene see the same ones. All other random numbers depend on
+/// the seed and the scanner's name, separately for each term and pixel. Throws InputError as validate(camera)
+/// and validate(sensor) do.
 Scan scan(const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera, const Sensor& sensor,
           std::uint64_t scene_seed, std::string_view scanner = "");
 

@@ -33,7 +33,7 @@ void require_within(double value, double least, double greatest, const char* key
   if (!(value >= least && value <= greatest)) fail(key, value, expected);
 }
 
-/// The two ends of a range; names the one that is not as it stands without being set.
+/// Checks that a range is in order. The error names the end that differs from its default.
 void require_order(const Sensor& sensor, double Sensor::*least, double Sensor::*greatest,
                    const std::string& least_key, const std::string& greatest_key) {
   if (sensor.*least <= sensor.*greatest) return;
@@ -49,7 +49,7 @@ void validate_noise(const Sensor& sensor) {
   require_within(sensor.sigma, 0, largest_error, "sigma",
                  fmt::format("at most {} metre of noise, or 0 for none", largest_error));
   if (!(sensor.dropout >= 0 && sensor.dropout < 1)) {
-    fail("dropout", sensor.dropout, "a share of the pixels from 0 to less than 1");
+    fail("dropout", sensor.dropout, "a fraction of the pixels, from 0 to below 1");
   }
   require_within(sensor.disparity_sigma, 0, largest_disparity_sigma, "disparity_sigma",
                  fmt::format("at most {} pixels of noise, or 0 for none", largest_disparity_sigma));
@@ -84,8 +84,8 @@ void validate_signal(const Sensor& sensor) {
   const char* const reflectance = "a reflectance from 0 to 1";
   const char* const highlight = "a highlight of 0 or more";
   require_positive(sensor.snr, "snr", "a positive ratio; signal = false switches the term off");
-  require_not_negative(sensor.snr_min, "snr_min", "a ratio, or 0 to lose no weak pixel");
-  require_positive(sensor.snr_max, "snr_max", "a positive ratio, a large one to lose no bright pixel");
+  require_not_negative(sensor.snr_min, "snr_min", "a ratio of 0 or more; 0 keeps all weak pixels");
+  require_positive(sensor.snr_max, "snr_max", "a positive ratio; a large one keeps all bright pixels");
   require_order(sensor, &Sensor::snr_min, &Sensor::snr_max, "snr_min", "snr_max");
   require_within(sensor.albedo_min, 0, 1, "albedo_min", reflectance);
   require_within(sensor.albedo_max, 0, 1, "albedo_max", reflectance);
@@ -117,7 +117,7 @@ Sensor sensor_preset(std::string_view name) {
             .trueness = 0.0003};
   }
   if (name == "kinect-v1") return {.kinect_noise = true};
-  camera_preset(name);  // throws for an unknown name
+  camera_preset(name);  // throws if the name is unknown
   return {};
 }
 

@@ -8,8 +8,8 @@ namespace tanglebin {
 
 // Internal to the room.
 
-/// What random numbers are drawn for, so that no term's draws depend on another's (CounterRandom). The
-/// numbers are part of what makes a seed's scan: new terms get new ones.
+/// Separate streams of random numbers (CounterRandom), so that no term's numbers depend on another's. A
+/// seed's scan depends on these values: give new terms new numbers.
 enum class Term : std::uint64_t {
   range_noise = 1,
   dropout = 2,

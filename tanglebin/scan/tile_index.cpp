@@ -18,15 +18,15 @@ AlignedBox3d bounding_box(const Surfaces& surfaces) {
   return all;
 }
 
-/// A bound on the sine of the angle between the rays through a tile's centre and through any point of it:
-/// their distance in the image plane at unit distance, as projecting that plane onto the unit sphere
-/// lengthens nothing.
+/// An upper bound on the sine of the angle between the rays through a tile's centre and through any of its
+/// points: their distance in the image plane at unit distance. (Projecting that plane onto the unit sphere
+/// lengthens nothing.)
 double tile_spread(const Camera& camera, double margin, int tile_size) {
   const double half = (tile_size - 1) / 2.0 + margin;
   return std::hypot(half / camera.fx, half / camera.fy);
 }
 
-/// 8 pixels, fastest for the presets; fewer where those would span a large angle.
+/// 8 pixels, which is fastest for the presets; fewer if that would span a large angle.
 int choose_tile_size(const Camera& camera, double margin) {
   constexpr double largest_spread = 0.25;
   int size = 8;
@@ -34,10 +34,10 @@ int choose_tile_size(const Camera& camera, double margin) {
   return size;
 }
 
-constexpr double rounding = 1e-9;  // of metres
+constexpr double rounding = 1e-9;  // m
 
-/// The surfaces, so much larger that the central ray of a beam meets one where any ray of the beam meets the
-/// true one, and no later.
+/// Thickens the boxes so that the central ray of a beam meets one wherever a ray of the beam meets the true
+/// one, and no later.
 std::array<AlignedBox3d, 5> thickened(std::array<AlignedBox3d, 5> boxes, const BeamShape& beam) {
   for (AlignedBox3d& box : boxes) {
     const double farthest = (box.center() - beam.origin).norm() + box.diagonal().norm() / 2;
@@ -52,7 +52,8 @@ std::vector<Capsule> thickened(std::vector<Capsule> capsules, const BeamShape& b
   return capsules;
 }
 
-/// Where the central ray of a beam meets a thickened surface; a ray that starts inside has met it already.
+/// Adds the hit of a beam's central ray with a thickened surface. A ray that starts inside has already met
+/// it.
 void add(std::vector<Candidate>& candidates, std::size_t index, const std::optional<SurfaceHit>& hit,
          const Ray& central) {
   if (!hit) return;
@@ -60,7 +61,7 @@ void add(std::vector<Candidate>& candidates, std::size_t index, const std::optio
   candidates.push_back({index, enters ? hit->distance : 0});
 }
 
-/// Are both points outside of the same face, and with them all between them?
+/// True if both points, and so everything between them, are outside the same face.
 bool lie_outside_of_a_face(const AlignedBox3d& box, const Vector3d& a, const Vector3d& b) {
   return (a.cwiseMin(b).array() > box.max().array()).any() ||
          (a.cwiseMax(b).array() < box.min().array()).any();
@@ -128,7 +129,7 @@ bool is_blocked(const Surfaces& surfaces, const Candidates& candidates, const Ra
     if (nearest >= distance) break;
     if (const auto hit = ray_capsule(ray, surfaces.capsules[i]); hit && hit->distance < distance) return true;
   }
-  // Most ways end on the floor, and its plane tells that it is not between.
+  // Most paths end on the floor, whose plane shows that it is not in between.
   const Vector3d end = ray.origin + distance * ray.direction;
   for (const auto& [i, nearest] : candidates.boxes) {
     if (nearest >= distance) break;

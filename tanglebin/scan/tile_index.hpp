@@ -16,7 +16,7 @@
 
 namespace tanglebin {
 
-// Internal to the room: what a scene's rays can meet, and how to look it up for many rays at once.
+// Internal to the room: what the rays of a scene can hit, with a lookup for many rays at once.
 
 /// The capsules of all tubes and the boxes of the bin.
 struct Surfaces {
@@ -27,14 +27,14 @@ struct Surfaces {
 
 Surfaces surfaces_of(const std::vector<Tube>& tubes, const Bin& bin);
 
-/// The pixels onto which the scene projects and those up to `margin` pixels beside them; all of them where
-/// the scene is only partly in front of the camera.
+/// The window of pixels onto which the scene projects, enlarged by `margin` pixels. The whole image if the
+/// scene is only partly in front of the camera.
 PixelWindow window_of(const Surfaces& surfaces, const Camera& camera, double margin);
 
-/// What the rays of a tile may meet, nearest first.
+/// A surface that the rays of a tile may hit. Lists of candidates are sorted by distance.
 struct Candidate {
-  std::size_t index;  ///< in the surfaces' array
-  double nearest;     ///< m: no ray of the tile meets it nearer to its origin
+  std::size_t index;  ///< into the array of surfaces
+  double nearest;     ///< m; no ray of the tile hits it nearer to its origin
 };
 struct Candidates {
   std::vector<Candidate> boxes;
@@ -46,22 +46,23 @@ struct LabelledHit {
   std::int32_t label;
 };
 
-/// What the ray meets first. Of surfaces at the same distance: the bin, then the tubes in their order.
+/// The first surface that the ray hits. At equal distances, the bin comes before the tubes, and these in
+/// their order.
 std::optional<LabelledHit> first_hit(const Surfaces& surfaces, const Candidates& candidates, const Ray& ray);
 
-/// Does the ray meet anything closer than `distance`?
+/// True if the ray hits anything nearer than `distance`.
 bool is_blocked(const Surfaces& surfaces, const Candidates& candidates, const Ray& ray, double distance);
 
-/// Finds the candidates of square tiles of an image. The rays of a tile meet nearly the same things, so what
-/// they may meet is looked up once for all of them.
+/// Finds the candidates of square tiles of an image. The rays of a tile hit nearly the same surfaces, so the
+/// lookup is done once for all of them.
 class TileIndex {
 public:
-  /// For rays through image coordinates up to `margin` pixels outside of a tile's outermost pixel centres.
+  /// For rays through image coordinates up to `margin` pixels outside a tile's outermost pixel centres.
   TileIndex(const Surfaces& surfaces, const Camera& camera, double margin);
 
   int tile_size() const { return tile_size_; }  ///< pixels
 
-  /// Of the tile whose first pixel is in column `left` and row `top`.
+  /// For the tile whose first pixel is in column `left` and row `top`.
   void find(int left, int top, Candidates& found) const;
 
 private:
@@ -69,7 +70,7 @@ private:
   int tile_size_;
   BeamShape beam_;  ///< of a tile's rays
   CapsuleIndex capsule_index_;
-  std::vector<Capsule> thick_capsules_;  ///< as thick as the beam needs, and so the boxes
+  std::vector<Capsule> thick_capsules_;  ///< thickened for the beam, as are the boxes
   std::array<Eigen::AlignedBox3d, 5> thick_boxes_;
 };
 

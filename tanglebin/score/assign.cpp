@@ -1,7 +1,7 @@
 #include "tanglebin/score/assign.hpp"
 
-// Compiled as C++17: LEMON 1.3.1 uses members of std::allocator that C++20 removed. Its templates are all
-// that is needed, not its library.
+// Compiled as C++17, because LEMON 1.3.1 uses members of std::allocator that C++20 removed. Uses LEMON's
+// templates only, not its library.
 #define LEMON_ONLY_TEMPLATES
 #include <lemon/matching.h>
 #include <lemon/smart_graph.h>

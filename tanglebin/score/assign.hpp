@@ -8,11 +8,11 @@
 
 namespace tanglebin {
 
-/// For each tube the segment that stands for it, none for a tube without one.
+/// For each tube, its segment; none if it has no segment.
 using Assignment = std::vector<std::optional<std::size_t>>;
 
-/// The assignment of the most points (paper, Section 5): each segment to one tube at most, and only to one
-/// that it overlaps. Of several that are best it takes one, the same for the same confusion. Exact;
+/// The assignment with the most points (paper, Section 5). Each segment goes to at most one tube, and only to
+/// one that it overlaps. If several assignments are best, the choice depends only on the confusion. Exact;
 /// O(v e log v) for v tubes and segments and e overlaps.
 Assignment assign(const Confusion& confusion);
 

@@ -17,7 +17,7 @@ CentreLine::CentreLine(const Tube& tube)
   hang_up();
 }
 
-// Breadth first from node 0.
+// Breadth-first from node 0.
 void CentreLine::hang_up() {
   std::vector<std::vector<std::size_t>> edges_at(parents_.size());
   for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -60,7 +60,7 @@ double CentreLine::way(const Place& a, const Place& b) const {
     std::size_t& lower = levels_[above_a] > levels_[above_b] ? above_a : above_b;
     lower = parents_[lower];
   }
-  // The way goes up to where both ways to node 0 meet, unless one place is above the other.
+  // The path goes up to where both paths to node 0 meet, unless one place is above the other.
   const double top = std::min({a.depth, b.depth, depths_[above_a]});
   return a.depth + b.depth - 2 * top;
 }

@@ -27,7 +27,8 @@ std::size_t index_of(const std::vector<Region>& regions, std::int32_t label) {
 }  // namespace
 
 Confusion count_overlaps(const std::vector<std::int32_t>& truth, const std::vector<std::int32_t>& predicted) {
-  if (truth.size() != predicted.size()) throw std::invalid_argument("a predicted label for each true one");
+  if (truth.size() != predicted.size())
+    throw std::invalid_argument("truth and prediction must have the same number of labels");
   PointCounts tubes;
   PointCounts segments;
   std::map<std::pair<std::int32_t, std::int32_t>, std::int64_t> cells;

@@ -6,30 +6,31 @@
 
 namespace tanglebin {
 
-/// The points that have the same label.
+/// The points with the same label.
 struct Region {
   std::int32_t label;
   std::int64_t points;
 };
 
-/// The points that a tube and a segment have in common.
+/// The points that a tube and a segment share.
 struct Overlap {
-  std::size_t tube;     ///< index in Confusion::tubes
-  std::size_t segment;  ///< index in Confusion::segments
+  std::size_t tube;     ///< index into Confusion::tubes
+  std::size_t segment;  ///< index into Confusion::segments
   std::int64_t points;
 };
 
-/// The confusion matrix of the truth and a prediction: a row for each tube, a column for each segment, which
-/// is what a prediction gives one label. Sparse, since few tubes and segments meet.
+/// The confusion matrix of ground truth and prediction: a row for each tube, a column for each segment. A
+/// segment is the set of points to which the prediction gives the same label. Sparse, because few tubes and
+/// segments overlap.
 struct Confusion {
-  std::vector<Region> tubes;      ///< the truth's, ascending by label, none empty
-  std::vector<Region> segments;   ///< the prediction's, counted on the tubes only; ascending by label
-  std::vector<Overlap> overlaps;  ///< the cells that are not 0, row by row
+  std::vector<Region> tubes;      ///< from the ground truth, ascending by label, none empty
+  std::vector<Region> segments;   ///< from the prediction, counting points on tubes only; ascending by label
+  std::vector<Overlap> overlaps;  ///< the nonzero cells, row by row
 };
 
-/// Counts the points of tubes: those of label 1 and above in the truth, all others are left out. Where
-/// the prediction is 0 (the bin) or null, no segment claims the point. Throws std::invalid_argument for
-/// arrays of different lengths.
+/// Counts the points on tubes: those with label 1 or more in the ground truth. All others are ignored. Points
+/// that the prediction labels 0 (the bin) or null belong to no segment. Throws std::invalid_argument if the
+/// arrays differ in length.
 Confusion count_overlaps(const std::vector<std::int32_t>& truth, const std::vector<std::int32_t>& predicted);
 
 /// Intersection over union of an overlap's tube and segment.

@@ -9,12 +9,12 @@
 namespace tanglebin {
 namespace {
 
-// In the order in which Hoover et al. prefer one where two fit as well.
+// In the order of preference of Hoover et al. when two fit equally well.
 enum class Kind { correct, over_segmented, under_segmented };
 
 struct Instance {
   Kind kind;
-  double fit;  // mean of the shares that its overlap has of its tubes and of its segments
+  double fit;  // mean of the overlap's shares of its tubes and of its segments
   std::vector<std::size_t> tubes;
   std::vector<std::size_t> segments;
 };
@@ -72,7 +72,7 @@ Confusion transposed(const Confusion& confusion) {
   return result;
 }
 
-// A segment that merges tubes is a tube cut into segments with the roles exchanged.
+// Under-segmentation is over-segmentation with tubes and segments exchanged.
 std::vector<Instance> under_segmented_instances(const Confusion& confusion) {
   std::vector<Instance> instances = over_segmented_instances(transposed(confusion));
   for (Instance& instance : instances) {
@@ -89,7 +89,7 @@ std::vector<Instance> all_instances(const Confusion& confusion) {
   return all;
 }
 
-// Which tubes, or which segments, are in an instance that counts.
+// The tubes, or the segments, that are in a counted instance.
 class Members {
 public:
   explicit Members(std::size_t count) : taken_(count) {}
@@ -110,7 +110,7 @@ private:
 
 Instances count_instances(const Confusion& confusion) {
   std::vector<Instance> candidates = all_instances(confusion);
-  // Instances of one kind have no member in common, so that no order among equals matters.
+  // Instances of one kind share no member, so the order among equals does not matter.
   std::ranges::stable_sort(candidates, [](const Instance& a, const Instance& b) {
     return std::pair(-a.fit, a.kind) < std::pair(-b.fit, b.kind);
   });

@@ -11,12 +11,13 @@
 namespace tanglebin {
 namespace {
 
-// Ways along a tube that differ by less than this are the same, m.
+// m; distances along a tube that differ by less are equal
 constexpr double rounding = 1e-9;
 
-// An edge of a modelled tube that lies on a true tube: its ends and its middle, where they are nearest to it.
+// An edge of a modelled tube that lies on a true tube: the places there that are nearest to its ends and
+// middle.
 struct Piece {
-  std::size_t tube;  // the modelled one
+  std::size_t tube;  // the modelled tube
   std::size_t edge;
   Place from;
   Place middle;
@@ -27,7 +28,7 @@ struct Piece {
 
 using Pieces = std::vector<Piece>;
 
-// Where an edge lies on a true tube, if it is within its radius.
+// The position of an edge on a true tube, if it is within the tube's radius.
 std::optional<Piece> place_edge(const CentreLine& line, const Capsule& edge) {
   const Eigen::Vector3d middle = (edge.a + edge.b) / 2;
   if (line.is_surely_beyond(line.radius(), middle)) return {};
@@ -46,7 +47,7 @@ std::optional<Piece> place_edge(const CentreLine& line, const Capsule& edge) {
                .distance = distance};
 }
 
-// The edges that lie on each true tube; one that lies on several counts to the nearest.
+// The edges on each true tube. An edge that lies on several tubes counts for the nearest.
 std::vector<Pieces> edges_on(const std::vector<CentreLine>& truth, const std::vector<Tube>& modelled) {
   std::vector<Pieces> on(truth.size());
   for (std::size_t tube = 0; tube < modelled.size(); ++tube) {
@@ -73,8 +74,8 @@ bool is_on_way(const CentreLine& line, const Place& place, const Piece& piece) {
   return line.way(piece.from, place) + line.way(place, piece.to) <= piece.length + rounding;
 }
 
-// Leaves out what lies beside a longer piece all along: a second fit to the same part of a tube, or what
-// leads back from the end of one cylinder to the beginning of the next where the two overlap.
+// Drops pieces that lie beside a longer one over their whole length: a second fit to the same part of a tube,
+// or an edge that leads back from the end of one cylinder to the beginning of the next where the two overlap.
 Pieces without_repetition(const CentreLine& line, Pieces pieces) {
   std::ranges::stable_sort(pieces, std::greater(), &Piece::length);
   Pieces kept;
@@ -87,7 +88,7 @@ Pieces without_repetition(const CentreLine& line, Pieces pieces) {
   return kept;
 }
 
-// Two pieces by their indices, the lower first.
+// Two pieces by index, the lower one first.
 using Join = std::pair<std::size_t, std::size_t>;
 
 struct Neighbour {
@@ -95,13 +96,13 @@ struct Neighbour {
   std::size_t piece;
 };
 
-// The pieces next to one on their true tube: no other piece has its middle on the way from middle to middle.
+// The neighbours of a piece on its true tube. No other piece has its middle between theirs.
 std::vector<Neighbour> neighbours(const CentreLine& line, const Pieces& pieces, std::size_t piece) {
   std::vector<Neighbour> others;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (i != piece) others.push_back({line.way(pieces[piece].middle, pieces[i].middle), i});
   }
-  // From near to far, so that what is in between is a neighbour itself, or behind one.
+  // From near to far, so that a piece in between is already known.
   std::ranges::sort(others, {}, &Neighbour::way);
   std::vector<Neighbour> found;
   for (const Neighbour& other : others) {
@@ -114,7 +115,7 @@ std::vector<Neighbour> neighbours(const CentreLine& line, const Pieces& pieces, 
   return found;
 }
 
-// Pieces that lie next to each other on one true tube; the first of them is the `first` one of all.
+// Pairs of neighbouring pieces on one true tube. Piece indices start at `first`.
 void add_true_joins(std::vector<Join>& joins, const CentreLine& line, const Pieces& pieces,
                     std::size_t first) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -124,8 +125,8 @@ void add_true_joins(std::vector<Join>& joins, const CentreLine& line, const Piec
   }
 }
 
-// Pieces that a modelled tube joins: they meet at a node, or at what is one node when all edges between
-// that are no pieces shrink to nothing.
+// Pairs of pieces that a modelled tube joins: they meet at a node, or would if all edges between them that
+// are not pieces shrank to nothing.
 void add_modelled_joins(std::vector<Join>& joins, const Tube& tube,
                         const std::map<std::size_t, std::size_t>& piece_of_edge) {
   boost::disjoint_sets_with_storage<> shrunk(tube.nodes.size());

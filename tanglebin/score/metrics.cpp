@@ -37,7 +37,7 @@ Detection detection(const Confusion& confusion) {
   if (detected == 0.0) return {0.0, 0.0, 0.0, 0.0};
   const auto tubes = static_cast<double>(confusion.tubes.size());
   const auto segments = static_cast<double>(confusion.segments.size());
-  // TP + FP/2 + FN/2, with TP + FN the tubes and TP + FP the segments.
+  // TP + FP/2 + FN/2, where TP + FN is the number of tubes and TP + FP that of segments.
   const double mean_size = (tubes + segments) / 2;
   return {detected / segments, detected / tubes, detected / mean_size, iou_sum / mean_size};
 }
@@ -46,7 +46,7 @@ double adjusted_rand_index(const Confusion& confusion) {
   const std::int64_t in_tubes = pairs_within(confusion.tubes);
   const std::int64_t in_segments = pairs_within(confusion.segments);
   const std::int64_t all = pairs(points_of(confusion.tubes));
-  // One cluster on both sides, or none of two points on either: 0/0 by the formula, and full agreement.
+  // Both sides have a single cluster, or only single points: 0/0 in the formula, but full agreement.
   if (in_tubes == in_segments && (in_tubes == 0 || in_tubes == all)) return 1.0;
   const auto in_both = static_cast<double>(pairs_within(confusion.overlaps));
   const double expected =

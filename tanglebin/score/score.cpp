@@ -28,7 +28,7 @@ std::vector<TubeScore> tube_scores(const Confusion& confusion, const Assignment&
 Score score(const std::vector<std::int32_t>& truth, const std::vector<std::int32_t>& predicted) {
   Score score{};
   score.confusion = count_overlaps(truth, predicted);
-  if (score.confusion.tubes.empty()) throw std::invalid_argument("the truth has no point on a tube");
+  if (score.confusion.tubes.empty()) throw std::invalid_argument("the ground truth has no point on a tube");
   score.tubes = tube_scores(score.confusion, assign(score.confusion));
   for (const TubeScore& tube : score.tubes) {
     score.points += tube.points;
@@ -37,7 +37,7 @@ Score score(const std::vector<std::int32_t>& truth, const std::vector<std::int32
     score.mean_iou += tube.iou;
   }
   score.mean_iou /= static_cast<double>(score.tubes.size());
-  // Equation (1): tp + fn of a tube are all its points.
+  // Equation (1): tp + fn of a tube is the number of its points.
   score.micro_recall = static_cast<double>(score.correct_points) / static_cast<double>(score.points);
   score.detection = detection(score.confusion);
   score.adjusted_rand_index = adjusted_rand_index(score.confusion);

@@ -42,18 +42,18 @@ std::vector<std::int32_t> labels_of(const PointCloud& cloud, const ColorLabels& 
 struct PositionHash {
   std::size_t operator()(const Eigen::Vector3f& position) const {
     std::size_t hash = 0;
-    // std::hash, unlike the bits, is the same for 0 and -0, which are equal.
+    // Unlike the bits, std::hash is the same for 0 and -0, which are equal.
     for (const float coordinate : position) boost::hash_combine(hash, std::hash<float>{}(coordinate));
     return hash;
   }
 };
 
-/// The points of a cloud by position, each to be taken once.
+/// The points of a cloud by position. Each can be taken once.
 class PointsByPosition {
 public:
   explicit PointsByPosition(const std::vector<Eigen::Vector3f>& points) : next_(points.size(), none) {
     first_.reserve(points.size());
-    // From the last to the first, so that points of the same position are taken in their order.
+    // Backwards, so that points at the same position are taken in order.
     for (std::size_t i = points.size(); i-- > 0;) {
       if (!points[i].allFinite()) continue;
       const auto [entry, is_new] = first_.try_emplace(points[i], i);
@@ -63,7 +63,7 @@ public:
 
   bool knows(const Eigen::Vector3f& position) const { return first_.contains(position); }
 
-  /// The next point at this position, none after the last.
+  /// The next point at this position; none after the last.
   std::optional<std::size_t> take(const Eigen::Vector3f& position) {
     const auto entry = first_.find(position);
     if (entry == first_.end() || entry->second == none) return std::nullopt;
@@ -73,7 +73,7 @@ public:
 private:
   static constexpr std::size_t none = SIZE_MAX;
   std::unordered_map<Eigen::Vector3f, std::size_t, PositionHash> first_;
-  std::vector<std::size_t> next_;  // point → next one at the same position
+  std::vector<std::size_t> next_;  // for each point, the next one at the same position
 };
 
 std::string to_string(const Eigen::Vector3f& point) {
@@ -110,8 +110,8 @@ std::vector<std::int32_t> match_points(const PointCloud& truth, const PointCloud
     const auto point = truth_points.take(position);
     if (!point) {
       throw InputError({file, 0, fmt::format("point {}", i + 1)}, to_string(position),
-                       truth_points.knows(position) ? "no more points at this position than the truth has"
-                                                    : "the exact position of a point of the truth");
+                       truth_points.knows(position) ? "no more points at this position than in the truth"
+                                                    : "the exact position of a point in the truth");
     }
     matched[*point] = labels[i];
   }

@@ -14,17 +14,17 @@
 namespace tanglebin {
 namespace {
 
-// A piece of a centre line, taken for a point.
+// A piece of a centre line, treated as a point.
 struct Sample {
   Eigen::Vector3d point;
   double length;  // m
 };
 
-// Cuts an axis into parts of 1 mm at most. (A thousand at most, so that tubes whose numbers are millimetres
-// take no thousand times as long to score badly.)
+// Cuts an axis into parts of at most 1 mm, but at most a thousand parts, so that tubes in millimetres by
+// mistake do not take a thousand times as long.
 std::vector<Sample> samples(const Capsule& axis) {
   const double length = (axis.b - axis.a).norm();
-  // A little less, so that rounding does not add a part to a length of whole millimetres.
+  // Slightly less, so that rounding does not add a part to a length of whole millimetres.
   const int parts = static_cast<int>(std::min(std::ceil(length / 0.001 - 1e-6), 1000.0));
   std::vector<Sample> samples;
   samples.reserve(static_cast<std::size_t>(parts));
@@ -34,7 +34,7 @@ std::vector<Sample> samples(const Capsule& axis) {
   return samples;
 }
 
-// The centre lines of the tubes that have one.
+// The centre lines of the tubes that have edges.
 std::vector<CentreLine> centre_lines(const std::vector<Tube>& tubes) {
   std::vector<CentreLine> lines;
   for (const Tube& tube : tubes) {
@@ -53,10 +53,10 @@ double distance_to_nearest(const std::vector<CentreLine>& lines, const Eigen::Ve
 
 struct Error {
   double distance;  // m
-  double length;    // m, of what is so far off
+  double length;    // m, of the part with this distance
 };
 
-// Of all that is modelled, ascending.
+// For all modelled tubes, ascending.
 std::vector<Error> errors(const std::vector<CentreLine>& truth, const std::vector<Tube>& modelled) {
   std::vector<Error> errors;
   for (const Tube& tube : modelled) {
@@ -70,7 +70,7 @@ std::vector<Error> errors(const std::vector<CentreLine>& truth, const std::vecto
   return errors;
 }
 
-// The least distance that this share of the length is not beyond; `errors` ascend.
+// The smallest distance that this fraction of the length does not exceed; `errors` is sorted.
 std::optional<double> quantile(const std::vector<Error>& errors, double share) {
   double total = 0;
   for (const Error& error : errors) total += error.length;
@@ -88,7 +88,7 @@ std::vector<Capsule> all_capsules(const std::vector<Tube>& tubes) {
   return all;
 }
 
-// Those whose axes may be within a distance of an axis.
+// The capsules whose axes may be within this distance of an axis.
 std::vector<Capsule> near(const std::vector<Capsule>& capsules, const Capsule& axis, double distance) {
   const auto box = [](const Capsule& capsule) {
     return Eigen::AlignedBox3d(capsule.a.cwiseMin(capsule.b), capsule.a.cwiseMax(capsule.b));
@@ -107,7 +107,7 @@ struct Coverage {
   double length;   // m, of all
 };
 
-// How much of a centre line is within its radius of the modelled one.
+// How much of a centre line is within its radius of a modelled one.
 Coverage covered_part(const CentreLine& line, const std::vector<Capsule>& model) {
   Coverage part{};
   for (const Capsule& axis : line.capsules()) {
@@ -135,8 +135,7 @@ double coverage(const std::vector<CentreLine>& truth, const std::vector<Tube>& m
   return all.covered / all.length;
 }
 
-// Of each true tube that a modelled one covers nearly from end to end, by which share of its length that one
-// is too long or too short.
+// The relative length error of each true tube that a modelled one covers almost from end to end.
 std::vector<double> length_errors(const std::vector<CentreLine>& truth, const std::vector<Tube>& modelled) {
   constexpr double nearly = 0.95;
   std::vector<double> errors;

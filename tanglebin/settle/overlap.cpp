@@ -14,7 +14,7 @@ double overlap(const Tube& first, const Tube& second) {
   return deepest;
 }
 
-// The distance of a point from a box is convex along a segment, so a ternary search finds its least value.
+// The distance of a point from a box is convex along a segment, so a ternary search finds its minimum.
 double distance(const Capsule& capsule, const Eigen::AlignedBox3d& box) {
   const auto at = [&](double t) { return box.exteriorDistance(capsule.a + t * (capsule.b - capsule.a)); };
   double low = 0;

@@ -7,11 +7,11 @@
 
 namespace tanglebin {
 
-/// How deep the two tubes that overlap most do so, m; 0 where none do.
+/// The deepest overlap of two tubes, m; 0 if none overlap.
 double largest_tube_overlap(const std::vector<Tube>& tubes);
 
-/// How deep the tube that is deepest in floor or wall is, m; 0 where none is. A tube whose centre line enters
-/// the bin's material counts with its radius.
+/// The deepest overlap of a tube with the floor or a wall, m; 0 if there is none. If a tube's centre line
+/// enters the bin's material, its overlap counts as its radius.
 double largest_bin_overlap(const std::vector<Tube>& tubes, const Bin& bin);
 
 }  // namespace tanglebin

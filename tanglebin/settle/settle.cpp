@@ -13,7 +13,7 @@
 namespace tanglebin {
 namespace {
 
-// The longest that a tube can fall freely: after it every tube has met the bin or another tube.
+// The longest possible free fall, after which every tube has met the bin or another tube.
 double longest_fall(const std::vector<Tube>& tubes, double gravity) {
   double top = 0;
   for (const Tube& tube : tubes) top = std::max(top, bounds(tube).max().z());
@@ -30,7 +30,8 @@ double largest_motion(const std::vector<Tube>& before, const std::vector<Tube>& 
   return largest;
 }
 
-// Is every centre of mass between the outer sides of the walls? One that is not does not come back.
+// True if every centre of mass is between the outer sides of the walls. A tube beyond them does not come
+// back.
 bool are_over_the_bin(const std::vector<Eigen::Vector3d>& centres, const Bin& bin) {
   return std::ranges::all_of(centres, [&](const Eigen::Vector3d& centre) {
     return std::abs(centre.x()) < bin.length / 2 + bin.wall &&
@@ -38,8 +39,8 @@ bool are_over_the_bin(const std::vector<Eigen::Vector3d>& centres, const Bin& bi
   });
 }
 
-// Lays the tubes down without speed, lets them go and says why they are not clear and at rest; empty where
-// they are.
+// Puts the tubes down without speed, releases them, and describes why they are not clear and at rest; empty
+// if they are.
 std::string fault_of_rest(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings) {
   if (const double overlap = largest_tube_overlap(tubes); overlap > settings.overlap_max) {
     return fmt::format("two tubes overlap by {:.2f} mm", 1e3 * overlap);
@@ -66,7 +67,7 @@ std::string fault_of_place(const std::vector<Tube>& tubes, const Bin& bin) {
   return are_inside ? "" : "a centre of mass is outside the bin";
 }
 
-// As the files hold them: what was tested is then what is read again.
+// Rounds to what the files hold, so that what was tested is what will be read.
 std::vector<Tube> in_whole_nanometres(std::vector<Tube> tubes) {
   for (Tube& tube : tubes) round_to_nanometres(tube);
   return tubes;
@@ -101,7 +102,7 @@ Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSetti
       fault = fault_of_place(heap, bin);
       break;
     }
-    // What creeps on is held by contact forces that the solver has not yet found.
+    // What still creeps is held by contact forces that the solver has not found yet.
     iterations = std::min(settings.iterations_max, iterations * 3 / 2);
     slow_since = world.time();
   }

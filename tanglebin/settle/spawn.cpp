@@ -9,11 +9,11 @@ namespace tanglebin {
 namespace {
 
 constexpr double clearance = 0.002;                // m, between tubes, and over the rim
-constexpr double raise_step = 0.005;               // m, the coarseness of the search for a free height
-constexpr double steepest = std::numbers::pi / 4;  // rad: an upright tube would fall out of a low bin
-constexpr int turns = 32;                          // tries at a heading in which the outline fits the opening
+constexpr double raise_step = 0.005;               // m, step of the search for a free height
+constexpr double steepest = std::numbers::pi / 4;  // rad; an upright tube would fall out of a low bin
+constexpr int turns = 32;                          // headings tried until the outline fits the opening
 
-// The line through the two nodes that are farthest apart.
+// The direction between the two nodes that are farthest apart.
 Eigen::Vector3d long_axis(const Tube& tube) {
   Eigen::Vector3d longest = Eigen::Vector3d::Zero();
   for (const Node& first : tube.nodes) {
@@ -25,7 +25,7 @@ Eigen::Vector3d long_axis(const Tube& tube) {
   return longest.normalized();
 }
 
-// Lowers a tube whose long axis is steeper than `steepest` to that slope.
+// Tilts a tube whose long axis is steeper than `steepest` down to that slope.
 void lay_down(Tube& tube) {
   const Eigen::Vector3d axis = long_axis(tube);
   const Eigen::Vector3d up = axis.z() < 0 ? Eigen::Vector3d(-axis) : axis;
@@ -44,13 +44,13 @@ void shift(Tube& tube, const Eigen::Vector3d& by) {
   transform(tube, Eigen::Isometry3d(Eigen::Translation3d(by)));
 }
 
-// How far the outline exceeds the opening, in the worse of the two directions; negative: it fits.
+// By how much the outline exceeds the opening, in the worse of the two directions; negative if it fits.
 double overhang(const Tube& tube, const Bin& bin) {
   const Eigen::Vector3d size = bounds(tube).sizes();
   return std::max(size.x() - bin.length, size.y() - bin.width);
 }
 
-// Keeps the first heading that fits, else the one that overhangs least.
+// Keeps the first heading that fits, or else the one with the least overhang.
 void turn_to_fit(Rng& rng, Tube& tube, const Bin& bin) {
   Tube best = tube;
   for (int turn = 0; turn < turns && overhang(best, bin) > 0; ++turn) {
@@ -61,7 +61,7 @@ void turn_to_fit(Rng& rng, Tube& tube, const Bin& bin) {
   tube = std::move(best);
 }
 
-// A random place over the opening; centred in a direction in which the tube does not fit.
+// Moves the tube to a random position above the opening, centred in a direction in which it does not fit.
 void place_over_opening(Rng& rng, Tube& tube, const Bin& bin) {
   const Eigen::AlignedBox3d box = bounds(tube);
   const double free_x = std::max(0.0, bin.length - box.sizes().x()) / 2;

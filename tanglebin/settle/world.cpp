@@ -19,7 +19,7 @@ void initialize_ode_once() {
   static_cast<void>(initialized);
 }
 
-// ODE ends the process where a mass is not positive.
+// ODE aborts the process if a mass is not positive.
 void require_mass(const Tube& tube) {
   if (std::isfinite(tube.mass) && tube.mass > 0) return;
   throw InputError({"", 0, fmt::format("mass of tube {}", tube.id)}, fmt::format("{}", tube.mass),
@@ -48,14 +48,14 @@ Eigen::Isometry3d pose(dBodyID body) {
   return Eigen::Translation3d(vector(dBodyGetPosition(body))) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
 }
 
-// What may touch what, as ODE's category and collide bits.
+// ODE's category and collide bits: what may touch what.
 constexpr unsigned long tube_bit = 1;
 constexpr unsigned long node_bit = 2;
 constexpr unsigned long wall_bit = 4;
 constexpr unsigned long floor_bit = 8;
 
 void add_bin(dSpaceID space, const Bin& bin) {
-  // The floor is a plane, so that nothing can tunnel through it; it meets a union of capsules at node
+  // The floor is a plane, so that nothing can tunnel through it. It contacts a union of capsules at node
   // spheres.
   const dGeomID floor = dCreatePlane(space, 0, 0, 1, 0);
   dGeomSetCategoryBits(floor, floor_bit);
@@ -74,7 +74,7 @@ void add_bin(dSpaceID space, const Bin& bin) {
 struct Body {
   dBodyID id;
   MassProperties properties;
-  Tube tube;  // in the body's frame: its origin is the centre of mass
+  Tube tube;  // in the body's frame, whose origin is the centre of mass
 };
 
 }  // namespace
@@ -86,7 +86,7 @@ struct World::Implementation {
   dSpaceID space;
   dJointGroupID contacts;
   std::vector<Body> bodies;
-  unsigned long random;  // what ODE's one random generator is at, each time this world makes a step
+  unsigned long random;  // state of ODE's global random generator, restored for each step of this world
   int steps = 0;
 
   void add_tube(const Tube& tube);

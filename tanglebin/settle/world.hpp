@@ -11,18 +11,18 @@
 
 namespace tanglebin {
 
-/// How one step is made.
+/// Settings of a single step.
 struct StepSettings {
   int iterations;  ///< of the contact solver
-  double damping;  ///< share of its linear and angular speed that every tube loses
+  double damping;  ///< fraction of its linear and angular speed that every tube loses
 };
 
-/// Rigid tubes and a bin in ODE. Each tube is a body with its true mass and inertia; its surface is a capsule
-/// for each cylinder. One world at a time in a process: the solver draws from ODE's one random generator,
-/// which the constructor seeds.
+/// Rigid tubes and a bin in ODE. Each tube is a body with its true mass and inertia, and a capsule for each
+/// cylinder. Only one world may be in use at a time in a process: the solver uses ODE's single random
+/// generator, which the constructor seeds.
 class World {
 public:
-  /// Throws InputError for a tube whose mass is not a positive number, such as one read from the text format.
+  /// Throws InputError for a tube whose mass is not positive, such as one read from the text format.
   World(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings, std::uint64_t seed);
   ~World();
   World(const World&) = delete;
@@ -33,7 +33,7 @@ public:
   /// Advances by settings.step.
   void step(const StepSettings& how);
 
-  /// Seconds simulated.
+  /// Simulated time, s.
   double time() const;
 
   /// Speed of the fastest node of all tubes, m/s.
@@ -42,11 +42,10 @@ public:
   /// The tubes' centres of mass, m.
   std::vector<Eigen::Vector3d> centres_of_mass() const;
 
-  /// Kinetic and potential energy of all tubes, J; zero for tubes that lie still with their centres on the
-  /// floor.
+  /// Kinetic and potential energy of all tubes, J. Zero for tubes at rest with their centres at floor height.
   double energy() const;
 
-  /// The tubes where they are now.
+  /// The tubes in their current positions.
   std::vector<Tube> tubes() const;
 
 private:

@@ -17,7 +17,7 @@
 namespace tanglebin {
 namespace {
 
-/// Adds the time from its construction to its destruction to a sum.
+/// Adds its lifetime to a sum.
 class Stopwatch {
 public:
   explicit Stopwatch(double& sum) : sum_(sum) {}
@@ -31,7 +31,7 @@ private:
   Clock::time_point start_ = Clock::now();
 };
 
-// Algorithm 1, above the bin.
+// Algorithm 1, then the tubes are spawned above the bin.
 std::vector<Tube> draw_tubes(Rng& rng, const SetRecipe& set, int count, const Bin& bin) {
   std::vector<Tube> tubes;
   for (int id = 1; id <= count; ++id) tubes.push_back(draw_tube(rng, kind_of(set, id), id));
@@ -48,7 +48,7 @@ std::vector<Scan> scan_with_all(const Recipe& recipe, const std::vector<Tube>& t
 }
 
 std::string no_valid_scene(const CaseId& id, const std::vector<Rejection>& rejections) {
-  // Faults that differ only in their numbers are one kind.
+  // Faults that differ only in their numbers count as one kind.
   std::map<std::string, int> counts;
   for (const Rejection& rejection : rejections) {
     ++counts[rejection.fault.substr(0, rejection.fault.find_first_of("0123456789"))];

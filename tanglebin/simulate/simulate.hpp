@@ -11,38 +11,38 @@
 
 namespace tanglebin {
 
-/// An attempt at a case that gave no valid scene.
+/// An attempt that gave no valid scene.
 struct Rejection {
   std::uint64_t seed;
   double simulated;  ///< s
   std::string fault;
 };
 
-/// Wall-clock seconds that the stages took, all attempts together.
+/// Wall-clock time of each stage, s, summed over all attempts.
 struct StageTimes {
   double generate = 0.0;  ///< drawing and spawning the tubes
   double settle = 0.0;
   double scan = 0.0;
-  double write = 0.0;  ///< the files; simulate() leaves it 0
+  double write = 0.0;  ///< writing the files; simulate() leaves it 0
 };
 
-/// A valid scene: tubes at rest in the bin, and what the scanners see of them.
+/// A valid scene: tubes at rest in the bin, and the scans of them.
 struct Scene {
   std::vector<Tube> tubes;
   Scan scan;                        ///< by the recipe's first scanner
   std::vector<Scan> further_scans;  ///< by its further scanners
-  std::uint64_t seed;               ///< of the attempt that made it
+  std::uint64_t seed;               ///< of the successful attempt
   double simulated;                 ///< s, of that attempt
   double largest_overlap;           ///< m
   std::vector<Rejection> rejections;
   StageTimes times;
 };
 
-/// Makes the scene of a case of a valid recipe without random numbers (resolve()): draws tubes, drops them,
-/// scans them, and draws again while the heap is not valid (settle.hpp). The scene follows from (recipe seed,
-/// set, number of tubes, case number, attempt) alone. The tubes' numbers are whole nanometres (quaternions:
-/// billionths), so that the text format holds the scene exactly. Throws InputError when recipe.attempts have
-/// failed, with what they failed by.
+/// Simulates a case of a valid recipe without random numbers (resolve()): draws tubes, drops and scans them,
+/// and draws again while the heap is invalid (settle.hpp). The scene depends only on (recipe seed, set,
+/// number of tubes, case number, attempt). The tubes' numbers are whole nanometres (quaternions: billionths),
+/// so the text format stores the scene exactly. Throws InputError with the reasons after recipe.attempts
+/// failures.
 Scene simulate(const Recipe& recipe, const CaseId& id);
 
 }  // namespace tanglebin

@@ -18,10 +18,10 @@ namespace {
 
 using tinyxml2::XMLPrinter;
 
-constexpr double unknown_mass_density = 1;   // kg for a metre of centre line
-constexpr double least_field_of_view = 0.1;  // rad, from SDF's camera.sdf
+constexpr double unknown_mass_density = 1;   // kg per metre of centre line
+constexpr double least_field_of_view = 0.1;  // rad, minimum in SDF's camera.sdf
 
-/// An XML element from construction to the end of its scope.
+/// An XML element that lasts until the end of its scope.
 class Element {
 public:
   Element(XMLPrinter& xml, const char* tag) : xml_(xml) { xml_.OpenElement(tag); }
@@ -43,7 +43,7 @@ void write_text(XMLPrinter& xml, const char* tag, const std::string& text) {
   xml.PushText(text.c_str());
 }
 
-// fmt prints the fewest digits that read back as the same double, whatever the locale.
+// fmt prints the fewest digits that read back as the same double, in any locale.
 void write_number(XMLPrinter& xml, const char* tag, double number) {
   write_text(xml, tag, fmt::format("{}", number));
 }
@@ -64,7 +64,7 @@ void write_position(XMLPrinter& xml, const Eigen::Vector3d& position) {
   write_text(xml, "pose", fmt::format("{} {} {} 0 0 0", position.x(), position.y(), position.z()));
 }
 
-// Looks and contact of a solid.
+// Appearance and contact of a solid.
 
 void write_material(XMLPrinter& xml, const Color& color) {
   const std::string rgba =
@@ -87,7 +87,7 @@ struct Surface {
   double friction;
 };
 
-/// One solid, as what collides and what is seen; `write_shape` writes its pose and geometry.
+/// A solid, for both collision and display; `write_shape` writes its pose and geometry.
 template <typename WriteShape>
 void write_solid(XMLPrinter& xml, const std::string& name, const Surface& surface, WriteShape write_shape) {
   {
@@ -139,7 +139,7 @@ double horizontal_field_of_view(const Camera& camera) {
     throw InputError(
         {.file = {}, .line = 0, .field = "scanner"},
         fmt::format("a horizontal field of view of {} rad", hfov),
-        fmt::format("at least {} rad, or no worlds: SDF knows no narrower camera", least_field_of_view));
+        fmt::format("at least {} rad, the minimum in SDF; or switch worlds off", least_field_of_view));
   }
   return hfov;
 }
@@ -157,7 +157,7 @@ void write_camera(XMLPrinter& xml, const Camera& camera, const Bin& bin) {
   write_pose(xml, camera.pose.translation(), sdf_camera_rotation(camera));
   const Element link(xml, "link", "body");
   Element sensor(xml, "sensor", "depth_camera");
-  sensor.attribute("type", "depth");  // what both Gazebos understand
+  sensor.attribute("type", "depth");  // understood by both Gazebos
   write_text(xml, "always_on", "false");
   write_number(xml, "update_rate", 1);  // Hz
   const Element camera_element(xml, "camera");
@@ -229,7 +229,7 @@ void write_tube(XMLPrinter& xml, const Tube& tube, const Surface& surface) {
   for (const Node& node : tube.nodes) write_sphere(xml, tube, node, properties.centre, surface);
 }
 
-// What is around them.
+// The surroundings.
 
 void write_physics(XMLPrinter& xml, const SettleSettings& settle) {
   Element physics(xml, "physics", "ode");

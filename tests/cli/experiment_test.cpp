@@ -87,12 +87,12 @@ TEST_F(ExperimentCommand, BadInputIsExitStatusTwoAndOneLine) {
     expect_error(experiment("--downsample '" + ratio + "'"), "--downsample: found '");
   }
   expect_error(experiment("--downsample 0.1:1"), "first:last:step");
-  expect_error(experiment("--downsample 0.1:1:0.2"), "a step that leads from the first to the last");
-  expect_error(experiment("--downsample 1:0.1:0.1"), "a step that leads from the first to the last");
+  expect_error(experiment("--downsample 0.1:1:0.2"), "a step that leads from the first ratio to the last");
+  expect_error(experiment("--downsample 1:0.1:0.1"), "a step that leads from the first ratio to the last");
   expect_error(experiment("--downsample 0.3,0.30"), "each ratio once");
   expect_error(experiment("--downsample 0.000000001:1:0.000000001"), "at most a thousand ratios");
   expect_error(experiment("--method none"), "none");
-  expect_error(experiment("--set C"), "dataset: no case has this --set, --tubes and --cases");
+  expect_error(experiment("--set C"), "dataset: no case matches --set, --tubes and --cases");
   expect_error(run_program("experiment " + path("") + " --out " + path("r")),
                "recipe.toml: cannot be opened");
   EXPECT_FALSE(std::filesystem::exists(path("results")));

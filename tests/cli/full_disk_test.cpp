@@ -82,7 +82,7 @@ TEST_F(FullDisk, IsAnErrorThatLosesNoFinishedCaseAndTheRunGoesOnWhenThereIsSpace
   ASSERT_TRUE(mount_with("size=64m", MS_REMOUNT));
   const ProgramResult rest = generate(disk_ / "dataset");
   EXPECT_EQ(rest.status, 0) << rest.err;
-  EXPECT_THAT(rest.out, testing::Not(HasSubstr(": 40 cases made")));
+  EXPECT_THAT(rest.out, testing::Not(HasSubstr(": 40 cases generated")));
   EXPECT_EQ(dataset_in(disk_ / "dataset"), whole);
 }
 

@@ -64,7 +64,7 @@ bend_max_deg = 45
 TEST_F(Generate, MakesTheRecipesCasesAndSaysSo) {
   const auto result = run_program(command());
   EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.out, HasSubstr("dataset: 9 cases made in "));
+  EXPECT_THAT(result.out, HasSubstr("dataset: 9 cases generated in "));
   EXPECT_EQ(result.err, "");  // no progress where standard error is no terminal
   EXPECT_EQ(files_below(out()).size(), 9 * 3 + 4U);
 }
@@ -229,9 +229,9 @@ TEST_F(Generate, BadInputIsExitStatusTwoAndOneLine) {
     EXPECT_EQ(result.out, "");
   };
   expect_error("generate " + (directory_ / "none.toml").string() + " --out " + out(), "none.toml: ");
-  expect_error(command("--set C"), "no case has this --set, --tubes and --cases");
+  expect_error(command("--set C"), "no case matches --set, --tubes and --cases");
   expect_error(command("--cases 3-1"), "--cases: found '3-1', expected a number or a range such as 1-20");
-  expect_error(command("--shard 3/2"), "--shard: found '3/2', expected a part I/N such as 2/8");
+  expect_error(command("--shard 3/2"), "--shard: found '3/2', expected I/N with I from 1 to N, such as 2/8");
   expect_error("generate " + recipe_.string() + " --out /proc/dataset", "/proc/dataset");
   EXPECT_FALSE(std::filesystem::exists(out()));
 }

@@ -179,7 +179,7 @@ TEST_F(Interruption, OutputThatIsLostIsAnError) {
        {generate("--cases 1"), "verify " + path("dataset"), std::string("--help")}) {
     const ProgramResult result = run_program(command + " >/dev/full");
     EXPECT_EQ(result.status, 2) << command;
-    EXPECT_EQ(result.err, "tanglebin: standard output: cannot write all of it\n");
+    EXPECT_EQ(result.err, "tanglebin: standard output: cannot write all output\n");
   }
   EXPECT_EQ(run_program(generate("--cases 2") + " 2>/dev/full").status, 0);
 }

@@ -141,7 +141,7 @@ TEST_F(ModelCommand, EstimatesTheRadius) {
   write("empty.ply", ply_of(test::scanned({})));
   const ProgramResult nothing = model("empty.ply", "--radius auto");
   EXPECT_EQ(nothing.status, 2);
-  EXPECT_THAT(nothing.err, HasSubstr("radius: found too few points of a tube"));
+  EXPECT_THAT(nothing.err, HasSubstr("radius: the cloud shows too little of a tube"));
 }
 
 TEST_F(ModelCommand, TakesTubesOfSeveralRadiiAndLengths) {
@@ -170,16 +170,16 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
       {model("scan.ply", "--downsample 0"), "downsample: found 0, expected"},
       {model("scan.ply", "--radius -1"), "--radius: found '-1', expected a positive number"},
       {model("scan.ply", "--radius 0.01,"), "--radius: found '', expected a positive number"},
-      {model("scan.ply", "--radius 0.01,0.01"), "radius: found 0.01 m a second time"},
+      {model("scan.ply", "--radius 0.01,0.01"), "radius: found 0.01 m for two kinds"},
       {model("scan.ply", "--radius 0.01,0.02,0.03 --length 0.4,0.5"),
        "--length: found 2 lengths, expected one, or one for each radius: 3"},
       {model("scan.ply", "--tree 1-2:0.3,1-3"),
-       "--tree: found '1-3', expected a segment and its length, m, such as 1-2:0.3"},
+       "--tree: found '1-3', expected a segment with its length in metres, such as 1-2:0.3"},
       {model("scan.ply", "--tree 1-2:0.3,2-1:0.1"), "--tree: found a segment to node 1, which closes a loop"},
       {model("scan.ply", "--tree 1-2:0.3 --tree 1-2:0.4"),
        "--tree: found 2 trees, expected one, or one for each radius: 1"},
       {model("scan.ply", "--radius 0.01,0.02 --method paper"),
-       "method: found paper for tubes of several radii"},
+       "method: the paper's method handles a single radius"},
       {model("scan.ply", "--bin bucket"), "bucket"},
       {model("nowhere.ply", ""), "nowhere.ply"},
   };

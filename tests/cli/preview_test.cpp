@@ -117,12 +117,12 @@ TEST_F(Preview, SaysWhatIsWrongWithItsInputAndExitsWith2) {
   EXPECT_THAT(message("."), StartsWith("tanglebin: .: found a directory"));
   EXPECT_THAT(message("empty.txt"),
               StartsWith("tanglebin: empty.txt: found an empty file, expected a config"));
-  EXPECT_THAT(message("story.txt"), StartsWith("tanglebin: story.txt: found 'O' first, expected a config"));
+  EXPECT_THAT(message("story.txt"),
+              StartsWith("tanglebin: story.txt: found 'O' at the start, expected a config"));
   EXPECT_THAT(message("cut.txt"), StartsWith("tanglebin: cut.txt:"));
   EXPECT_THAT(message("empty.ply"), HasSubstr("empty.ply: found a cloud without points"));
-  EXPECT_THAT(message("- < story.txt"), StartsWith("tanglebin: standard input: found 'O' first"));
-  EXPECT_THAT(message("tube.txt --bin round"),
-              HasSubstr("found 'round', expected paper or published"));
+  EXPECT_THAT(message("- < story.txt"), StartsWith("tanglebin: standard input: found 'O' at the start"));
+  EXPECT_THAT(message("tube.txt --bin round"), HasSubstr("found 'round', expected paper or published"));
   EXPECT_THAT(message("tube.txt --width 0"), HasSubstr("width: found 0, expected 1 to 4096 pixels"));
   EXPECT_THAT(message("tube.txt --elevation-deg 100"),
               HasSubstr("elevation: found 100°, expected -90° to 90°"));

@@ -190,9 +190,9 @@ TEST_F(ScoreCommand, SaysOnOneLineWhatIsWrongAndExitsWith2) {
   };
   EXPECT_THAT(
       message("truth.ply", "elsewhere.ply"),
-      HasSubstr("elsewhere.ply: point 1: found (1.5, 2, 3), expected the exact position of a point of"));
+      HasSubstr("elsewhere.ply: point 1: found (1.5, 2, 3), expected the exact position of a point in"));
   EXPECT_THAT(message("bin.ply", "bin.ply"), HasSubstr("bin.ply: found no point on a tube"));
-  EXPECT_THAT(message("story.txt", "labelled.pcd"), HasSubstr("story.txt: found 'O' first"));
+  EXPECT_THAT(message("story.txt", "labelled.pcd"), HasSubstr("story.txt: found 'O' at the start"));
   EXPECT_THAT(message("truth.ply", "absent.ply"), HasSubstr("absent.ply: cannot be opened"));
 }
 

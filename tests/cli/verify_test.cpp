@@ -37,7 +37,7 @@ TEST_F(Verify, EndsWithZeroWhereNothingIsWrong) {
     const ProgramResult result = verify(options);
     EXPECT_EQ(result.status, 0) << result.out;
     EXPECT_THAT(result.out, HasSubstr("dataset: 3 of the recipe's 3 cases, digest "));
-    EXPECT_THAT(result.out, HasSubstr("; nothing is wrong\n"));
+    EXPECT_THAT(result.out, HasSubstr("; no faults found\n"));
     EXPECT_EQ(result.err, "");
   }
 }
@@ -58,7 +58,7 @@ TEST_F(Verify, EndsWithOneAndAListOtherwiseAndRepairs) {
 
   const ProgramResult repaired = verify("--repair");
   EXPECT_EQ(repaired.status, 0) << repaired.out;
-  EXPECT_THAT(repaired.out, HasSubstr("2 cases made again, nothing is wrong\n"));
+  EXPECT_THAT(repaired.out, HasSubstr("2 cases regenerated, no faults found\n"));
   EXPECT_EQ(nlohmann::json::parse(verify("--json").out)["digest"], whole["digest"]);
 }
 

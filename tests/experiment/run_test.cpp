@@ -80,9 +80,7 @@ TEST(ScoreModel, ACloudOfWhichTheFilterLeavesNoTubeIsAnErrorThatNamesIt) {
     score_model(data, model);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "1.ply: found no point of a tube among those that the method's filter left, expected at least one");
+    EXPECT_STREQ(error.what(), "1.ply: no point on a tube is left after filtering");
   }
 }
 

@@ -281,7 +281,7 @@ TEST(Configuration, NoticesThatThereAreMoreEdgesThanAnnounced) {
 
 TEST(Configuration, NoticesNumbersOfNodesAndEdgesThatMakeNoTree) {
   EXPECT_EQ(complaint_after("1 3 2", "1 3 3"),
-            "tubes.txt:2: number of edges: found 3, expected 2, since a tree has one less than its 3 nodes");
+            "tubes.txt:2: number of edges: found 3, expected 2, one less than the tree's 3 nodes");
   EXPECT_EQ(complaint_after("1 3 2", "1 1 0"),
             "tubes.txt:2: number of nodes: found '1', expected a whole number from 2 to 2147483647");
 }
@@ -302,9 +302,9 @@ TEST(Configuration, DoesNotBelieveAbsurdCounts) {
 
 TEST(Configuration, NamesIdsThatAreThereTwice) {
   EXPECT_EQ(complaint_after("2 2 1\n", "1 2 1\n"),
-            "tubes.txt:8: tube id: found 1 a second time, expected ids that differ");
+            "tubes.txt:8: tube id: found 1 twice, expected distinct ids");
   EXPECT_EQ(complaint_after("4 0.1 0 0.1", "1 0.1 0 0.1"),
-            "tubes.txt:5: node id: found 1 a second time, expected ids that differ");
+            "tubes.txt:5: node id: found 1 twice, expected distinct ids");
 }
 
 TEST(Configuration, NamesAnUnknownNodeOfAnEdge) {

@@ -268,7 +268,7 @@ TEST(ReadPcd, PassesOverTheZerosThatPclLeavesUpToTheEndOfAPage) {
   const std::string binary = header(xyz, "binary") + std::string(24, '\0');
   EXPECT_EQ(read(binary + std::string(4096, '\0')).points.size(), 2U);
   EXPECT_EQ(complaint_about(binary + std::string(65537, '\0')),
-            "cloud.pcd: more data after the last point than the header says");
+            "cloud.pcd: data after the last point that the header declares");
 }
 
 TEST(ReadPcd, TakesTheIdentityForAnUnknownViewpoint) {
@@ -370,7 +370,7 @@ TEST(ReadPcd, SaysWhatIsWrongWithPoints) {
   EXPECT_EQ(complaint_about(header(xyz, "binary") + std::string(23, '\0')),
             "cloud.pcd: POINTS: found 1 before the end of the file, expected 2");
   EXPECT_EQ(complaint_about(header(xyz, "binary") + std::string(25, '\1')),
-            "cloud.pcd: more data after the last point than the header says");
+            "cloud.pcd: data after the last point that the header declares");
 }
 
 TEST(ReadPcd, SaysWhatIsWrongWithCompressedPoints) {
@@ -389,7 +389,7 @@ TEST(ReadPcd, SaysWhatIsWrongWithCompressedPoints) {
   EXPECT_EQ(complaint_about(head + sizes(3, 24) + std::string(3, '\xff')),
             "cloud.pcd: DATA: compressed data is damaged");
   EXPECT_EQ(complaint_about(head + sizes(packed.size(), 24) + packed + "x"),
-            "cloud.pcd: more data after the last point than the header says");
+            "cloud.pcd: data after the last point that the header declares");
   // Claims four gigabytes; has none.
   EXPECT_EQ(
       complaint_about(header(xyz, "binary_compressed", 300'000'000) + sizes(1'000'000'000, 3'600'000'000)),

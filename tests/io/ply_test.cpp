@@ -305,9 +305,9 @@ TEST(ReadPly, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(complaint_about(std::string(50, 'a')),
             "cloud.ply:1: found 'aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…', "
             "expected ply, the first line of a PLY file");
-  EXPECT_EQ(complaint_about(std::string(1 << 20, '\0')), "cloud.ply:1: line of more than 65535 bytes");
+  EXPECT_EQ(complaint_about(std::string(1 << 20, '\0')), "cloud.ply:1: line longer than 65535 bytes");
   EXPECT_EQ(complaint_about("ply\n" + std::string(1 << 20, ' ')),
-            "cloud.ply:2: line of more than 65535 bytes");
+            "cloud.ply:2: line longer than 65535 bytes");
 }
 
 TEST(ReadPly, SaysWhatIsWrongWithAHeader) {
@@ -451,7 +451,7 @@ TEST(ReadPly, SaysWhatComesAfterTheEnd) {
   EXPECT_EQ(complaint_about(header(xyz) + "1 2 3\n1 2 3\n\n1 2 3\n"),
             "cloud.ply:11: found '1 2 3', expected the end of the file");
   EXPECT_EQ(complaint_about(header(xyz, "binary_little_endian") + std::string(25, '\0')),
-            "cloud.ply: more data after the last element than the header says");
+            "cloud.ply: data after the last element that the header declares");
 }
 
 TEST(ReadPly, ComplainsOfAFileCutAnywhere) {

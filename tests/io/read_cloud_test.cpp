@@ -47,10 +47,10 @@ TEST(ReadCloud, RefusesEverythingElse) {
       complaint([] { read(""); }),
       "cloud: found an empty file, expected a PLY file, which begins with ply, or a PCD file, which begins "
       "with # or VERSION");
-  EXPECT_EQ(
-      complaint([] { read("\x89PNG"); }),
-      "cloud: found '\\x89' first, expected a PLY file, which begins with ply, or a PCD file, which begins "
-      "with # or VERSION");
+  EXPECT_EQ(complaint([] { read("\x89PNG"); }),
+            "cloud: found '\\x89' at the start, expected a PLY file, which begins with ply, or a PCD file, "
+            "which begins "
+            "with # or VERSION");
   EXPECT_EQ(complaint([] { read("paper\n"); }),
             "cloud:1: found 'paper', expected ply, the first line of a PLY file");
   EXPECT_EQ(complaint([] { read_cloud(std::filesystem::path("no/such.pcd")); }),

@@ -170,7 +170,7 @@ TEST_P(ModelTubes, RefusesASceneThatIsNone) {
   scene = paper_scene();
   scene.kinds.push_back(scene.kinds[0]);
   EXPECT_THAT(complaint({}, scene, 1),
-              HasSubstr("radius: found 0.0125 m a second time, expected kinds of tubes whose radii differ"));
+              HasSubstr("radius: found 0.0125 m for two kinds, expected a different radius for each kind"));
   scene.kinds.clear();
   EXPECT_THAT(complaint({}, scene, 1), HasSubstr("kinds: found none"));
   EXPECT_THAT(complaint({}, paper_scene(), 0), HasSubstr("downsample: found 0, expected a ratio above 0"));
@@ -181,8 +181,7 @@ TEST(PaperMethod, KnowsOneRadiusOnly) {
   KnownScene scene = paper_scene();
   scene.kinds.push_back({.radius = 0.008});
   EXPECT_EQ(test::complaint([&] { model_tubes({}, scene, {.method = Method::paper}); }),
-            "method: found paper for tubes of several radii, expected axis; the paper's method handles a "
-            "single radius");
+            "method: the paper's method handles a single radius; use --method axis");
 }
 
 TEST(Methods, HaveNamesBothWays) {

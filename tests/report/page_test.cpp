@@ -93,7 +93,7 @@ TEST(Page, OtherMeasuresAreMeansAndSharesOfAllJoins) {
 
 TEST(Page, TheHeadHasTheHeadlineNumbers) {
   const std::string page = report_page(small_results());
-  EXPECT_THAT(page, HasSubstr("labels a mean share of 0.850 (set A) and 0.700 (set B) of the points right"));
+  EXPECT_THAT(page, HasSubstr("has a mean micro-recall of 0.850 (set A) and 0.700 (set B)"));
   EXPECT_THAT(page, HasSubstr("a case of set A with 10 tubes in 0.43 s on average (published: 0.85 s)"));
   EXPECT_THAT(page, HasSubstr("2 cases of set A (10 tubes) and 1 case of set B (10 tubes); seed 7"));
   EXPECT_THAT(page, HasSubstr("i7-8750H"));
@@ -107,9 +107,9 @@ TEST(Page, TellsTheCommandsThatMadeIt) {
 
 TEST(Page, SaysThatOnlySomeCasesOfTheDatasetWereModelled) {
   Results results = small_results();
-  EXPECT_THAT(report_page(results), Not(HasSubstr("These results are of")));
+  EXPECT_THAT(report_page(results), Not(HasSubstr("These results cover")));
   results.experiment.cases = 1;
-  EXPECT_THAT(report_page(results), HasSubstr("These results are of 1 of the dataset's 2 cases"));
+  EXPECT_THAT(report_page(results), HasSubstr("These results cover 1 of the dataset's 2 cases"));
 }
 
 TEST(Page, SaysWhereItShowsAnotherRatioOrNumberOfTubesThanThePaper) {
@@ -120,8 +120,9 @@ TEST(Page, SaysWhereItShowsAnotherRatioOrNumberOfTubesThanThePaper) {
     run.run.id.tubes = 7;
   }
   const std::string page = report_page(results);
-  EXPECT_THAT(page, HasSubstr("The ratio of the paper's Figure 8, 0.3, was not run; 0.25 is the nearest."));
-  EXPECT_THAT(page, HasSubstr("Figure 9, 10, was not run; 7 is the nearest."));
+  EXPECT_THAT(
+      page, HasSubstr("The ratio of the paper's Figure 8, 0.3, was not run; this shows the nearest, 0.25."));
+  EXPECT_THAT(page, HasSubstr("Figure 9, 10, was not run; this shows the nearest, 7."));
 }
 
 TEST(Page, CasesWithoutTubesFoundHaveNoPartInTheCentreLineError) {

@@ -75,8 +75,9 @@ TEST_F(PictureOfScan, ShowsALineOfPixelsToo) {
 
 TEST_F(PictureOfScan, RefusesAScannerThatSeesNothing) {
   const Scan away = scan({}, Bin{}, downward_camera(240, 150, 170, {50, 0, 2}));
-  EXPECT_EQ(test::complaint([&] { picture_of_scan(away, away, "tubes.txt"); }),
-            "tubes.txt: found a scanner that sees nothing of the scene, expected one that looks at it");
+  EXPECT_EQ(
+      test::complaint([&] { picture_of_scan(away, away, "tubes.txt"); }),
+      "tubes.txt: found a scanner that sees nothing of the scene, expected one that looks at the scene");
 }
 
 }  // namespace

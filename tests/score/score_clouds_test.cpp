@@ -100,7 +100,7 @@ TEST(MatchPoints, NamesTheFirstPointThatTheTruthLacks) {
       complaint([&] {
         matched(cloud_with({1, 1, 1}), labelled);
       }),
-      "labelled.ply: point 2: found (0.01, 0.25, 0.1), expected the exact position of a point of the truth");
+      "labelled.ply: point 2: found (0.01, 0.25, 0.1), expected the exact position of a point in the truth");
 }
 
 TEST(MatchPoints, MatchesPointsOfOnePlaceInTheirOrder) {
@@ -116,8 +116,8 @@ TEST(MatchPoints, MorePointsAtOnePlaceThanInTheTruthAreAnError) {
   EXPECT_EQ(complaint([&] {
               matched(truth, chosen(truth, {0, 1, 0}));
             }),
-            "labelled.ply: point 3: found (0, 0, 0.1), expected no more points at this position than the "
-            "truth has");
+            "labelled.ply: point 3: found (0, 0, 0.1), expected no more points at this position than "
+            "in the truth");
 }
 
 TEST(MatchPoints, PassesOverPointsWithoutAPosition) {

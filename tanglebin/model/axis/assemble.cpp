@@ -10,13 +10,13 @@
 namespace tanglebin {
 namespace {
 
-/// The nodes that a fragment has in a line.
+/// The nodes of a fragment in a line.
 struct FragmentNodes {
   std::size_t first;
   std::vector<std::size_t> ends;
 };
 
-// The fragment's centre line, out to its ends.
+// Adds the fragment's centre line, extended to its ends.
 FragmentNodes add_fragment(LineTree& line, const Fragment& fragment) {
   const std::size_t offset = line.nodes.size();
   line.nodes.insert(line.nodes.end(), fragment.nodes.begin(), fragment.nodes.end());
@@ -27,7 +27,7 @@ FragmentNodes add_fragment(LineTree& line, const Fragment& fragment) {
   for (const FragmentEnd& end : fragment.ends) {
     std::size_t node = offset + end.node;
     if (std::ranges::find(end_nodes, node) != end_nodes.end()) {
-      // The second end of a fragment of one node.
+      // This is the second end of a fragment with a single node.
       line.edges.push_back({node, line.nodes.size()});
       node = line.nodes.size();
       line.nodes.emplace_back();
@@ -38,8 +38,8 @@ FragmentNodes add_fragment(LineTree& line, const Fragment& fragment) {
   return {offset, std::move(end_nodes)};
 }
 
-// The node of the line that a link leads to. A junction beyond an end is a new one, and from then on that
-// end.
+// The node of the line that a link leads to. For a junction beyond an end this is a new node, which then
+// replaces the end.
 std::size_t target_node(LineTree& line, FragmentNodes& fragment, const Link& link) {
   if (!link.to.end) return fragment.first + link.to.node;
   std::size_t& end = fragment.ends[*link.to.end];
@@ -59,7 +59,7 @@ LineTree assemble(const std::vector<Fragment>& fragments, const std::vector<std:
   std::vector<std::size_t> of_members;
   std::ranges::copy_if(chosen, std::back_inserter(of_members),
                        [&](std::size_t i) { return added.contains(links[i].fragment); });
-  // Junctions first: a link to an end that has one beyond it starts from there.
+  // Junctions first: a link to an end with a junction beyond it starts at the junction.
   std::stable_partition(of_members.begin(), of_members.end(),
                         [&](std::size_t i) { return links[i].kind == LinkKind::junction; });
   for (const std::size_t i : of_members) {

@@ -9,8 +9,8 @@
 
 namespace tanglebin {
 
-/// The centre line of the tube of this radius, m, that some fragments (`members`) make together: the lines of
-/// these, the ways between them of those chosen links that are theirs, and junctions drawn back.
+/// The centre line of the tube (of this radius, m) that the fragments `members` form: their centre lines, the
+/// gaps between them along the chosen links, and the junctions moved back.
 LineTree assembled_line(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
                         const std::vector<Link>& links, const std::vector<std::size_t>& chosen,
                         double radius);

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-// The points of a tube's fragments are that tube's.
+// Gives a tube the points of its fragments.
 void claim_points(std::vector<std::int32_t>& labels, const Tube& tube,
                   const std::vector<std::size_t>& fragments, const AxisSteps& steps,
                   const std::vector<std::size_t>& filtered) {
@@ -23,7 +23,7 @@ void claim_points(std::vector<std::int32_t>& labels, const Tube& tube,
   }
 }
 
-// How many of something the steps left, of all kinds.
+// The number of items that a step produced, over all kinds.
 template <typename Count>
 std::size_t total(const std::vector<AxisSteps>& kinds, Count count) {
   std::size_t sum = 0;

@@ -16,25 +16,25 @@
 
 namespace tanglebin {
 
-/// What the steps made of the points on one kind of tubes. Points are counted in Model::filtered.
+/// The results of the steps for one kind of tube. Point indices refer to Model::filtered.
 struct AxisSteps {
   AxisVotes votes;
   std::vector<Fragment> fragments;
   std::vector<Link> links;
-  std::vector<std::size_t> chosen;              ///< of the links
-  std::vector<std::vector<std::size_t>> tubes;  ///< the fragments of each
+  std::vector<std::size_t> chosen;              ///< indices into links
+  std::vector<std::vector<std::size_t>> tubes;  ///< the fragments of each tube
 };
 
-/// A model and what the steps before made of the cloud, for each known kind of tubes.
+/// A model, with the results of the steps for each known kind of tube.
 struct AxisModel {
   Model model;
   std::vector<AxisSteps> kinds;
 };
 
-/// Tubes by their axes (docs/algorithm.md): every point and its normal vote for a point on an axis of the
-/// known radius; the votes of a piece that is seen are a thin curve; these are joined by a matching of
-/// greatest likelihood, and fitted to the points by least squares. For chains and trees. Arguments as for
-/// model_tubes().
+/// The axis method (docs/algorithm.md). Every point votes, along its normal, for a point on a tube axis of
+/// the known radius. The votes of each visible piece of a tube form a thin curve. Pieces are joined by a
+/// maximum-likelihood matching and fitted to the points by least squares. For chains and trees. Arguments as
+/// for model_tubes().
 AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double ratio, std::uint64_t seed,
                         const AxisSettings& settings = {});
 

@@ -6,62 +6,62 @@
 
 namespace tanglebin {
 
-/// Surface patches: the plane through the neighbours of each point.
+/// Surface patches: a plane through the neighbours of each point.
 struct PatchSettings {
-  int neighbours = 40;         ///< points that a patch has, about
-  int neighbours_min = 5;      ///< a point with fewer has no patch
-  double reach_min = 0.36;     ///< radii; neighbours are nearer than the reach, which is chosen between
-  double reach_max = 0.85;     ///< radii; these two
-  double breadth_min = 0.02;   ///< reaches², least variance of the neighbours across their line
-  double roughness_max = 3.0;  ///< medians, most variance of the neighbours about their plane
+  int neighbours = 40;         ///< desired number of points in a patch
+  int neighbours_min = 5;      ///< a point with fewer neighbours has no patch
+  double reach_min = 0.36;     ///< radii; the reach, within which points are neighbours, is at least this
+  double reach_max = 0.85;     ///< radii; and at most this
+  double breadth_min = 0.02;   ///< reaches²; minimum variance of the neighbours across their line
+  double roughness_max = 3.0;  ///< medians; maximum variance of the neighbours about their plane
 };
 
-/// Vote: the point of a tube's axis that a point and its patch's normal lead to.
+/// Vote: finds the axis point that a point's normal leads to.
 struct VoteSettings {
   PatchSettings patch;
-  double floor_margin = 0.5;  ///< radii; a point nearer to the floor is not on a tube that is seen from above
-  double bin_tolerance = 0.3;  ///< radii, by which an axis may be nearer to the bin than a radius
+  double floor_margin = 0.5;   ///< radii; points nearer to the floor are not on a visible tube
+  double bin_tolerance = 0.3;  ///< radii, by which an axis may be nearer to the bin than one radius
 };
 
-/// Fragment: thin clusters of votes and their centre lines.
+/// Fragment: finds thin clusters of votes and their centre lines.
 struct FragmentSettings {
-  double voxel = 0.32;       ///< radii; axes of tubes that touch are two radii apart
+  double voxel = 0.32;       ///< radii; the axes of touching tubes are two radii apart
   double step = 0.4;         ///< radii, between the nodes of a centre line
-  double branch_min = 1.6;   ///< radii; a shorter branch of a centre line is no branch
-  double end_length = 1.6;   ///< radii, of the part of a fragment that gives the direction of its end
-  double spot_max = 0.12;    ///< radii, of the standard deviation of votes that are all in one place
-  double cap_min = 0.05;     ///< of the mean of n nᵀ over the normals n of a cap, the least eigenvalue
+  double branch_min = 1.6;   ///< radii; shorter branches of a centre line are dropped
+  double end_length = 1.6;   ///< radii, length of the part that gives an end its direction
+  double spot_max = 0.12;    ///< radii; votes with a smaller standard deviation count as a single spot
+  double cap_min = 0.05;     ///< least eigenvalue of the mean of n nᵀ over the normals n of a cap
   double extent_min = 0.04;  ///< radii, from the last node of a centre line to its end
-  double spread_max = 0.5;   ///< radii; votes are this near to their centre line, half of them at least
-  int points_min = 8;        ///< a fragment of fewer points is none
+  double spread_max = 0.5;   ///< radii; at least half of the votes are this near to their centre line
+  int points_min = 8;        ///< fragments with fewer points are dropped
 };
 
-/// Join: which links there may be, and what they weigh.
+/// Join: which links are possible, and their weights.
 struct LinkSettings {
   double angle_max = 3.2;          ///< rad, α
-  double length_tolerance = 0.03;  ///< of the known length, by which a tube may be too long
-  int ends_tolerance = 1;          ///< ends that a tree may have too many: where noise made a branch
-  double beyond_max = 3.2;         ///< radii, from the end of a fragment to a junction that is hidden
-  double seen_empty_max = 0.25;    ///< share of the way between two ends that may be seen to be empty
-  // Added to the log odds, since a fragment is more often a part of a tube than one by itself.
+  double length_tolerance = 0.03;  ///< how much longer than known a tube may be, as a fraction
+  int ends_tolerance = 1;          ///< surplus ends that a tree may have, where noise made a branch
+  double beyond_max = 3.2;         ///< radii, from a fragment's end to a hidden junction
+  double seen_empty_max = 0.25;    ///< fraction of the gap between two ends that may be seen to be empty
+  // Added to the log odds, because a fragment is more often part of a tube than a whole one.
   double chain_prior = 16.0;
   double tree_prior = 8.0;
   double junction_prior = 9.0;
-  // Radii, of a tree that links make, that take one from the logarithm of its odds: of misfit() with the
-  // known tree, and of what it lacks of that.
+  // Shape costs of a tree, in radii per unit of log odds: of its misfit() with the known tree, and of the
+  // length it lacks.
   double misfit_unit = 0.9;
   double missing_unit = 4.0;
 };
 
-/// Fit: straight pieces along a centre line, moved by least squares.
+/// Fit: lays straight pieces along a centre line and moves them by least squares.
 struct TubeFitSettings {
-  double tolerance = 0.08;    ///< radii, by which a centre line may miss the fragments' nodes before the fit
-  double residual_max = 0.3;  ///< radii; a point farther from the surface does not count
-  std::size_t points_max = 600;  ///< points that a tube is fitted to
+  double tolerance = 0.08;       ///< radii; tolerance for simplifying a centre line before the fit
+  double residual_max = 0.3;     ///< radii; points farther from the surface are ignored
+  std::size_t points_max = 600;  ///< maximum number of points that a tube is fitted to
   int iterations = 4;            ///< Gauss-Newton steps
 };
 
-/// The parameters of the axis method; docs/algorithm.md says how they were found.
+/// The parameters of the axis method. docs/algorithm.md explains how they were found.
 struct AxisSettings {
   FilterSettings filter;
   VoteSettings vote;

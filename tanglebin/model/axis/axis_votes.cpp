@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Floor and walls of a bin, single precision.
+/// A bin's floor and walls in single precision.
 using BinBoxes = std::array<Eigen::AlignedBox3f, 5>;
 
 BinBoxes boxes_of(const Bin& bin) {
@@ -41,7 +41,7 @@ AxisVotes vote_for_axes(const std::vector<Vector3f>& points, const Bin& bin, con
   const Vector3f nothing = Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
   AxisVotes result{std::vector(points.size(), nothing), std::vector(points.size(), nothing)};
 
-  const auto depth = static_cast<float>(radius);  // of the axis under the surface
+  const auto depth = static_cast<float>(radius);  // of the axis below the surface
   const float clearance = depth * (1 - static_cast<float>(settings.bin_tolerance));
   const BinBoxes solid = boxes_of(bin);
   const PixelGrid grid(without_floor(points, settings.floor_margin * radius), camera);
@@ -50,8 +50,8 @@ AxisVotes vote_for_axes(const std::vector<Vector3f>& points, const Bin& bin, con
   for (std::size_t item = 0; item < patches.size(); ++item) {
     if (!patches[item]) continue;
     const Patch& patch = *patches[item];
-    // The plane passes below the surface by the mean sagitta of the arc that the neighbours are on: their
-    // variance across the tube over its diameter.
+    // The plane lies below the surface by the mean sagitta of the neighbours' arc: their variance across the
+    // tube, divided by its diameter.
     const float sagitta = patch.breadth * reach * reach / (2 * depth);
     const Vector3f axis = grid.point(item) + patch.mean - patch.normal * (depth - sagitta);
     if (!is_clear_of(solid, axis, clearance)) continue;

@@ -9,16 +9,15 @@
 
 namespace tanglebin {
 
-/// What the points of a cloud say of the axes of the tubes that they are on: arrays of the points' size, NaN
-/// where a point has nothing to say.
+/// For each point of a cloud, its vote for a point on its tube's axis; NaN if it has none.
 struct AxisVotes {
-  std::vector<Eigen::Vector3f> votes;    ///< m, a point of the axis
+  std::vector<Eigen::Vector3f> votes;    ///< m, a point on the axis
   std::vector<Eigen::Vector3f> normals;  ///< unit, of the surface, towards the sensor
 };
 
-/// The surface's normal at a point of a tube of known radius (m) leads to the tube's axis. Normals are those
-/// of planes through the neighbours in the camera's image; where two surfaces meet there is none. An axis
-/// that would lie in the bin's floor or walls, or too near to them, is not voted for.
+/// Each point votes for the point one radius (m) inwards along its surface normal, which lies on its tube's
+/// axis. The normal is that of a plane through its neighbours in the camera's image. There is no vote where
+/// two surfaces meet, nor for an axis in the bin's floor or walls or too near to them.
 AxisVotes vote_for_axes(const std::vector<Eigen::Vector3f>& points, const Bin& bin, const Camera& camera,
                         double radius, const VoteSettings& settings);
 

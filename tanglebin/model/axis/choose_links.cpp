@@ -16,30 +16,30 @@
 namespace tanglebin {
 namespace {
 
-/// A part of a tube: a fragment, or several with the links between them.
+/// A part of a tube: one fragment, or several with the links between them.
 struct Part {
   double length;  ///< m
   int ends;
-  std::uint64_t links;  ///< the sum of their numbers
-  double cost;          ///< by which its shape makes it less likely, as a logarithm of odds; 0 for chains
+  std::uint64_t links;  ///< sum of the random numbers of its links
+  double cost;          ///< of its shape, in log odds; 0 for chains
 };
 
-/// What can be chosen from.
+/// The input of the choice.
 struct Candidates {
   const std::vector<Fragment>& fragments;
-  const std::vector<Link>& links;  ///< the heaviest first
+  const std::vector<Link>& links;  ///< heaviest first
   const TubeKind& kind;
   const LinkSettings& settings;
   double tube_length_max = length_max(kind, settings);  ///< m
   int tube_ends_max = count_ends(kind.segments) + settings.ends_tolerance;
-  std::vector<WeightedPair> pairs = {};  ///< a link's two ends as vertices, and its weight
+  std::vector<WeightedPair> pairs = {};  ///< the two ends of each link as vertices, and its weight
   std::size_t vertices = 0;
-  std::vector<std::uint64_t> numbers = {};  ///< of links, random: no two sets of links have one sum
-  std::vector<Part> alone = {};             ///< the fragments
+  std::vector<std::uint64_t> numbers = {};  ///< random, one per link; no two sets of links have the same sum
+  std::vector<Part> alone = {};             ///< each fragment by itself
 };
 
-// Of these fragments with the chosen links between them, a part of a tree. One that lacks much of its tree is
-// one of which much is hidden or, where that is less, none at all.
+// The shape cost of a part of a tree: these fragments with the chosen links between them. If much of the tree
+// is missing, either that much is occluded or the part is no tree at all; the cheaper explanation counts.
 double shape_cost(const Candidates& candidates, const std::vector<std::size_t>& fragments,
                   const std::vector<std::size_t>& chosen) {
   const TubeKind& kind = candidates.kind;
@@ -51,10 +51,10 @@ double shape_cost(const Candidates& candidates, const std::vector<std::size_t>& 
          missing / (candidates.settings.missing_unit * kind.radius);
 }
 
-/// Links of which no two share an end, and that together make possible tubes only.
+/// A set of links in which no two share an end and every tube is possible.
 class Selection {
 public:
-  /// Shape costs by Part::links, of what was weighed before.
+  /// Shape costs already computed, keyed by Part::links.
   using Costs = std::unordered_map<std::uint64_t, double>;
 
   Selection(const Candidates& candidates, Costs& costs)
@@ -64,8 +64,8 @@ public:
         parts_(candidates.alone),
         used_(candidates.vertices) {}
 
-  /// Takes a link whose ends are free where the tube that it makes is possible, and likelier than its two
-  /// parts, and says whether it does.
+  /// Takes a link if its ends are free and the resulting tube is possible and likelier than its two parts.
+  /// Returns true if it did.
   bool take(std::size_t link) {
     const std::size_t first = tubes_.find_set(candidates_->links[link].fragment);
     const std::size_t second = tubes_.find_set(candidates_->links[link].to.fragment);
@@ -84,14 +84,14 @@ public:
     return true;
   }
 
-  /// Takes these links, one after the other, where that is possible.
+  /// Takes as many of these links as possible, in order.
   void take_possible(const std::vector<std::size_t>& links) {
     for (const std::size_t link : links) {
-      if (has_free_ends(link)) take(link);  // most have not
+      if (has_free_ends(link)) take(link);  // usually false
     }
   }
 
-  /// Of some of the taken links, those that are not in the tubes that another one would join.
+  /// Of the taken links, those outside the two tubes that `link` would join.
   std::vector<std::size_t> without_tubes_of(std::size_t link, const std::vector<std::size_t>& taken) {
     const std::size_t first = tubes_.find_set(candidates_->links[link].fragment);
     const std::size_t second = tubes_.find_set(candidates_->links[link].to.fragment);
@@ -104,7 +104,7 @@ public:
   }
 
   const std::vector<std::size_t>& taken() const { return taken_; }
-  /// Of the links together, less what shapes cost.
+  /// The sum of the links' weights, less the shape costs.
   double weight() const { return weight_; }
 
 private:
@@ -138,13 +138,13 @@ private:
   const Candidates* candidates_;
   Costs* costs_;
   boost::disjoint_sets_with_storage<> tubes_;
-  std::vector<Part> parts_;         // the one that a set stands for
-  std::vector<std::uint8_t> used_;  // whether a vertex is: bytes are quicker to read than bits
+  std::vector<Part> parts_;         // of the tube that each set represents
+  std::vector<std::uint8_t> used_;  // for each vertex; bytes are faster to read than bits
   std::vector<std::size_t> taken_;
   double weight_ = 0;
 };
 
-// With what can be kept, and the heaviest of the others.
+// Keeps what it can of `kept`, then adds the heaviest of the other links.
 Selection completed(Selection selection, const std::vector<std::size_t>& kept,
                     const std::vector<std::size_t>& all) {
   selection.take_possible(kept);
@@ -152,9 +152,9 @@ Selection completed(Selection selection, const std::vector<std::size_t>& kept,
   return selection;
 }
 
-// Goes on to a heavier selection as long as there is one that has a certain link, what can be kept beside
-// that, and the heaviest of the others. One link alone rarely mends a tree that is made of two trees' parts:
-// there the two tubes that it joins are also tried anew.
+// Repeatedly moves to a heavier selection: one that contains a given link, whatever can be kept beside it,
+// and the heaviest of the others. A single link rarely repairs a tree made of parts of two, so this also
+// tries to rebuild both tubes that the link joins.
 Selection exchanged(const Selection& none, Selection best, const std::vector<std::size_t>& all,
                     bool with_branches) {
   constexpr double rounding = 1e-9;
@@ -181,7 +181,7 @@ Selection exchanged(const Selection& none, Selection best, const std::vector<std
   return best;
 }
 
-// The links that make one of the tubes impossible: of each such tube the weakest.
+// The weakest link of each impossible tube.
 std::vector<std::size_t> impossible_links(const std::vector<std::size_t>& matching, Selection possible) {
   std::vector<std::size_t> impossible;
   for (const std::size_t i : matching) {
@@ -190,8 +190,8 @@ std::vector<std::size_t> impossible_links(const std::vector<std::size_t>& matchi
   return impossible;
 }
 
-// A matching of greatest weight between the ends in which every tube is possible: what makes one impossible
-// is given up, and the rest matched again.
+// A maximum-weight matching of the ends with only possible tubes: drops the links that make a tube
+// impossible, and matches the rest again.
 std::vector<std::size_t> possible_matching(const Candidates& candidates, const Selection& none) {
   std::vector<WeightedPair> pairs = candidates.pairs;
   for (;;) {
@@ -202,7 +202,7 @@ std::vector<std::size_t> possible_matching(const Candidates& candidates, const S
   }
 }
 
-// The graph has a vertex for each end, and one more that stands for the junction that the end may lead to.
+// The graph has a vertex for each end, and one for the junction that each end may lead to.
 void add_graph(Candidates& candidates) {
   std::vector<std::size_t> ends_before{0};
   for (const Fragment& fragment : candidates.fragments)
@@ -224,7 +224,7 @@ void add_parts(Candidates& candidates) {
   for (std::size_t i = 0; i < candidates.fragments.size(); ++i) {
     const Fragment& fragment = candidates.fragments[i];
     const int ends = static_cast<int>(fragment.ends.size());
-    // What has too many ends is in no tube but its own, whatever that costs.
+    // A fragment with surplus ends stays a tube by itself, at no cost.
     const bool is_weighed = candidates.kind.branches() && ends <= candidates.tube_ends_max;
     candidates.alone.push_back({fragment.length, ends, 0, is_weighed ? shape_cost(candidates, {i}, {}) : 0});
   }
@@ -243,7 +243,7 @@ std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, co
   Selection::Costs costs;
   const Selection none(candidates, costs);
   Selection selection = none;
-  // Three ends meet at a junction: a matching, which pairs them, finds chains only.
+  // Matching pairs ends, so it cannot represent a junction of three ends.
   if (!kind.branches()) selection.take_possible(possible_matching(candidates, none));
   selection.take_possible(all);
   std::vector<std::size_t> chosen = exchanged(none, std::move(selection), all, kind.branches()).taken();

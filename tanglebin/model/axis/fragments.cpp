@@ -16,7 +16,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// What the points near the end of a fragment say of it.
+/// Statistics of the points near the end of a fragment.
 struct Surroundings {
   std::vector<Vector3d> votes;  ///< m, relative to the end
   Vector3d mean;                ///< of the votes, m, relative to the end
@@ -48,16 +48,15 @@ Surroundings surroundings(const Vector3d& end, const std::vector<std::size_t>& p
           products_of_normals / count};
 }
 
-// Of a tube that is seen end-on its cap alone may have votes: all in one place, from normals that go all
-// ways.
+// If a tube is seen end-on, only its cap may have votes: all in one place, from normals in all directions.
 bool is_cap(const Surroundings& around, double radius, const FragmentSettings& settings) {
   if (std::sqrt(around.spread.trace()) > settings.spot_max * radius) return false;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(around.normals, Eigen::EigenvaluesOnly);
   return solver.eigenvalues()[0] > settings.cap_min;
 }
 
-// The axis is where the votes are spread out, and square to the normals: a short piece that shows much of its
-// circumference has a direction too. Behind a cap the tube goes on away from the normals.
+// The axis is where the votes spread out, and perpendicular to the normals, so even a short piece that shows
+// much of its circumference has a direction. Behind a cap, the tube continues away from the normals.
 Vector3d direction(const Surroundings& around, double radius, const FragmentSettings& settings) {
   if (is_cap(around, radius, settings)) return -around.normal.normalized();
   const double unit = settings.step * radius;
@@ -65,7 +64,7 @@ Vector3d direction(const Surroundings& around, double radius, const FragmentSett
   return solver.eigenvectors().col(0);
 }
 
-// How far the votes go out, m; the last of them are left to the noise.
+// How far the votes extend, m, ignoring the outermost as noise.
 double extent(const std::vector<Vector3d>& votes, const Vector3d& outward, double least) {
   std::vector<double> along;
   along.reserve(votes.size());
@@ -100,7 +99,8 @@ std::vector<FragmentEnd> ends_of(const Fragment& fragment, const AxisVotes& vote
     const double least = settings.extent_min * radius;
     ends.push_back({leaf, end + extent(around.votes, outward, least) * outward, outward});
   }
-  // A fragment of one node ends there both ways; one of two nodes may be too short to tell its ends apart.
+  // A fragment with one node ends there in both directions; one with two may be too short to tell its ends
+  // apart.
   if (ends.size() == 1) ends.push_back({ends[0].node, ends[0].position, -ends[0].outward});
   constexpr std::size_t two_nodes = 2;
   if (fragment.nodes.size() == two_nodes && ends[0].outward.dot(ends[1].outward) > 0) {
@@ -109,10 +109,10 @@ std::vector<FragmentEnd> ends_of(const Fragment& fragment, const AxisVotes& vote
   return ends;
 }
 
-// The votes of a surface that is no tube's, a plane or a ball, are spread out.
+// Distinguishes tubes from planes and balls, whose votes are spread out.
 bool is_thin(const Skeleton& skeleton, const AxisVotes& votes, double spread_max) {
-  // Some votes all over the fragment: multiples of the golden ratio, which no regular order of points
-  // repeats.
+  // Samples votes from all over the fragment, at multiples of the golden ratio, which match no regular order
+  // of points.
   constexpr int looked_at = 100;
   int near = 0;
   for (int i = 0; i < looked_at; ++i) {

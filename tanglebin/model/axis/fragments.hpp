@@ -9,23 +9,23 @@
 
 namespace tanglebin {
 
-/// Where a fragment's centre line ends.
+/// An end of a fragment's centre line.
 struct FragmentEnd {
   std::size_t node;          ///< index into Fragment::nodes
   Eigen::Vector3d position;  ///< m
   Eigen::Vector3d outward;   ///< unit, along the centre line
 };
 
-/// A piece of a tube that is seen without a break.
+/// A piece of a tube that is visible without a break.
 struct Fragment {
-  std::vector<std::size_t> points;     ///< its points, ascending indices
-  std::vector<Eigen::Vector3d> nodes;  ///< m, of its centre line, a tree
-  std::vector<std::size_t> parents;    ///< of each node the one before; 0 for the first
+  std::vector<std::size_t> points;     ///< indices, ascending
+  std::vector<Eigen::Vector3d> nodes;  ///< m, nodes of its centre line, a tree
+  std::vector<std::size_t> parents;    ///< for each node, the preceding one; 0 for the first
   std::vector<FragmentEnd> ends;       ///< two, and one more for each branch
   double length;                       ///< m, of the centre line
 };
 
-/// Thin clusters of votes. Fragments branch only where tubes do (`with_branches`).
+/// Finds the fragments: thin clusters of votes. Centre lines branch only if `with_branches`. `radius` in m.
 std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
                                      const FragmentSettings& settings);
 

@@ -11,21 +11,21 @@ namespace {
 
 using Eigen::Vector3d;
 
-using Path = std::vector<std::size_t>;  // nodes, the first a junction
+using Path = std::vector<std::size_t>;  // nodes; the first is a junction
 
 // Radii.
-constexpr double parted = 1.6;  // along a branch, from where on it is by itself
-constexpr double seen_to = 5;   // along a branch, up to where it gives the direction
-constexpr double back_max = 8;  // along the stem, to where the branches meet
-constexpr double miss_max = 1;  // from there to the stem
+constexpr double parted = 1.6;  // along a branch, where it has separated from the others
+constexpr double seen_to = 5;   // along a branch, end of the part that gives its direction
+constexpr double back_max = 8;  // along the stem, to the meeting point of the branches
+constexpr double miss_max = 1;  // from the meeting point to the stem
 
-// A direction is not known where a branch is no longer than `parted`.
+// The direction is unknown if the branch is no longer than `parted`.
 struct Branch {
   Vector3d start;
   Vector3d direction;
 };
 
-// The place on a path that is so far from its first node, or its end.
+// The point on a path at this distance from its first node, or its end.
 Vector3d place_along(const LineTree& line, const Path& path, double distance) {
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const Vector3d way = line.nodes[path[i + 1]] - line.nodes[path[i]];
@@ -40,9 +40,9 @@ Branch branch_along(const LineTree& line, const Path& path, double radius) {
   return {start, (place_along(line, path, seen_to * radius) - start).normalized()};
 }
 
-// Halfway between the places at which two branches, drawn on both ways, are nearest to each other.
+// The midpoint of the closest approach of two branches, extended backwards.
 Vector3d meeting_place(const Branch& a, const Branch& b, double radius) {
-  constexpr double length = 1000;  // radii: as good as without end
+  constexpr double length = 1000;  // radii; practically infinite
   const Vector3d way_a = length * radius * a.direction;
   const Vector3d way_b = length * radius * b.direction;
   const auto [distance, s, t] =
@@ -50,7 +50,8 @@ Vector3d meeting_place(const Branch& a, const Branch& b, double radius) {
   return (a.start + (2 * s - 1) * way_a + b.start + (2 * t - 1) * way_b) / 2;
 }
 
-// How far along a path the place is that is nearest to a point; none where that is too far from either.
+// The distance along a path of its point nearest to `point`; none if it is too far along, or too far from
+// `point`.
 std::optional<double> way_back(const LineTree& line, const Path& stem, const Vector3d& point, double radius) {
   double nearest = (point - line.nodes[stem.front()]).norm();
   double nearest_way = 0;
@@ -70,7 +71,7 @@ std::optional<double> way_back(const LineTree& line, const Path& stem, const Vec
   return nearest_way;
 }
 
-// The part of a path up to a distance from its first node goes straight, and from elsewhere.
+// Replaces the first part of a path, up to this distance, by a straight line that starts at `from`.
 void draw_straight(LineTree& line, const Path& path, double distance, const Vector3d& from) {
   const Vector3d to = place_along(line, path, distance);
   Vector3d before = line.nodes[path.front()];
@@ -87,7 +88,7 @@ void draw_straight(LineTree& line, const Path& path, double distance, const Vect
 void draw_back(LineTree& line, const std::array<Path, 3>& paths, double radius) {
   std::array<Branch, 3> branches;
   for (std::size_t i = 0; i < 3; ++i) branches[i] = branch_along(line, paths[i], radius);
-  // The stem is the branch opposite to the sharpest angle.
+  // The stem is the branch opposite the sharpest angle.
   std::size_t stem = 0;
   double sharpest = -1;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -96,8 +97,8 @@ void draw_back(LineTree& line, const std::array<Path, 3>& paths, double radius) 
     sharpest = cosine;
     stem = i;
   }
-  constexpr double blunt = 0.0;        // cosines of angles: a right one ...
-  constexpr double parallel = 0.9995;  // ... and one too small to say where lines meet
+  constexpr double blunt = 0.0;        // cosines: a right angle ...
+  constexpr double parallel = 0.9995;  // ... and an angle too small to locate the intersection
   if (sharpest <= blunt || sharpest >= parallel) return;
   const std::size_t first = (stem + 1) % 3;
   const std::size_t second = (stem + 2) % 3;

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// How large tubes are.
+/// The range of the tubes' radii.
 struct Radii {
   double smallest;  // m
   double largest;   // m
@@ -27,21 +27,21 @@ Radii radii_of(const std::vector<TubeKind>& kinds) {
   return {smallest.radius, largest.radius};
 }
 
-// The surface of a thin tube leaves a plane by more than that of a thick one, and its variance about the
-// plane goes with the square of that.
+// The surface of a thin tube deviates from a plane by more than that of a thick one; its variance about the
+// plane grows with the square of the deviation.
 PatchSettings for_all(PatchSettings patch, const Radii& radii) {
   const double ratio = radii.largest / radii.smallest;
   patch.roughness_max *= ratio * ratio;
   return patch;
 }
 
-// Pieces of tubes, whatever their kind: votes for axes of the wrong radius are spread out, but still less
-// than the tubes are apart.
+// Finds pieces of tubes of any kind. Votes with a wrong radius are spread out, but by less than the distance
+// between tubes.
 std::vector<std::vector<std::size_t>> pieces(const std::vector<Vector3f>& points, const KnownScene& known,
                                              const Radii& radii, VoteSettings vote,
                                              const FragmentSettings& fragment) {
   vote.patch = for_all(vote.patch, radii);
-  vote.bin_tolerance = 1;  // the axis of a thinner tube may be nearer to the bin than this radius
+  vote.bin_tolerance = 1;  // a thinner tube's axis may be nearer to the bin than this radius
   const double radius = radii.middle();
   const AxisVotes votes = vote_for_axes(points, known.bin, known.camera, radius, vote);
   std::vector<std::vector<std::size_t>> found;
@@ -58,7 +58,7 @@ std::size_t nearest_kind(const std::vector<TubeKind>& kinds, double radius) {
   return static_cast<std::size_t>(nearest - kinds.begin());
 }
 
-// What the pairs of points of each piece say of its radius.
+// For each piece, the radii from its pairs of points.
 std::vector<std::vector<float>> radii_of_pieces(const std::vector<std::vector<std::size_t>>& pieces,
                                                 const std::vector<Vector3f>& points, const Camera& camera,
                                                 const Radii& known) {

@@ -9,9 +9,9 @@
 
 namespace tanglebin {
 
-/// The points (m; without the bin's) on the tubes of each known kind: for each kind as many as there are, NaN
-/// where a point is on a tube of another kind. Of which kind a piece of surface is its curvature tells; where
-/// it shows too little of it, its points are of none. Of a single kind are all.
+/// Splits points (m, without the bin's) by the kind of tube they are on. Each result has as many entries as
+/// `points`, with NaN for points on another kind. The surface's curvature tells the kinds apart; points on a
+/// piece that shows too little curvature belong to no kind. With a single kind, all points belong to it.
 std::vector<std::vector<Eigen::Vector3f>> points_by_kind(const std::vector<Eigen::Vector3f>& points,
                                                          const KnownScene& known, const VoteSettings& vote,
                                                          const FragmentSettings& fragment);

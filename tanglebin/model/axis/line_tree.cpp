@@ -19,7 +19,7 @@ Paths::Paths(const LineTree& line) : neighbours_(neighbours_in(line)) {
   }
 }
 
-// Those that end at a later node: the others are known from their other end.
+// Skips paths that end at an earlier node: these were added from their other end.
 void Paths::add_paths_from(std::size_t start) {
   for (const std::size_t next : neighbours_[start]) {
     std::vector<std::size_t> path{start, next};

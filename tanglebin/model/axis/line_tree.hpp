@@ -10,19 +10,19 @@
 
 namespace tanglebin {
 
-/// A centre line that may branch: a tree.
+/// A centre line that may branch.
 struct LineTree {
   std::vector<Eigen::Vector3d> nodes;  ///< m
   std::vector<std::array<std::size_t, 2>> edges;
 };
 
-/// The nodes that edges lead to from one: two but for ends and junctions.
+/// The nodes that share an edge with a node: two except at ends and junctions.
 using Neighbours = boost::container::small_vector<std::size_t, 3>;
 
-/// Of each node.
+/// The neighbours of each node.
 std::vector<Neighbours> neighbours_in(const LineTree& line);
 
-/// The nodes of a line by what they are: ends and junctions are named, the others lie on paths between these.
+/// A line as paths between its named nodes, which are the ends and junctions.
 class Paths {
 public:
   explicit Paths(const LineTree& line);
@@ -40,7 +40,7 @@ private:
   std::vector<std::vector<std::size_t>> paths_;
 };
 
-/// A line by the lengths of its paths alone.
+/// A line, reduced to the lengths of its paths.
 SegmentTree segments_of(const LineTree& line);
 
 }  // namespace tanglebin

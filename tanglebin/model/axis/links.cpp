@@ -27,7 +27,7 @@ LinkFeatures features_of(const FragmentEnd& first, const FragmentEnd& second, do
   return {1, std::log(gap + shortest), gap, angle, angle * angle, turn, 0, 0};
 }
 
-/// Where a fragment may have a junction: at a node of its centre line, or beyond an end.
+/// A possible junction of a fragment: at a node of its centre line, or beyond an end.
 struct JunctionPlace {
   LinkTarget target;
   double beyond;  // m
@@ -59,7 +59,7 @@ std::vector<JunctionPlace> junction_places(const std::vector<Fragment>& fragment
   return places;
 }
 
-// Places among the features.
+// Indices of features.
 constexpr std::size_t alpha = 3;
 constexpr std::size_t seen_empty = 6;
 constexpr std::size_t obstruction = 7;
@@ -91,12 +91,12 @@ Vector3d on_curve(const FragmentEnd& first, const FragmentEnd& second, double t)
          t * t * (3 - 2 * t) * second.position + t * t * s * gap * second.outward;
 }
 
-// The mean of a measure, 0 or more, of places on the way between two ends: straight or curved, whichever is
-// less.
+// The mean of a non-negative measure over points on the way between two ends: straight or curved, whichever
+// is smaller.
 template <typename Measure>
 double least_mean(const FragmentEnd& first, const FragmentEnd& second, double radius, Measure measure) {
   const Vector3d way = second.position - first.position;
-  constexpr double step = 0.4;  // radii, of a short way
+  constexpr double step = 0.4;  // radii
   const int samples = std::clamp(static_cast<int>(way.norm() / (step * radius)) - 1, 1, 16);
   const auto mean = [&](auto place) {
     double sum = 0;
@@ -108,14 +108,14 @@ double least_mean(const FragmentEnd& first, const FragmentEnd& second, double ra
   return std::min(straight, mean([&](double t) { return on_curve(first, second, t); }));
 }
 
-// The share of the way between two ends on which the sensor saw past a tube.
+// The fraction of the gap between two ends on which the sensor saw past a tube.
 double share_seen_empty(const FragmentEnd& first, const FragmentEnd& second, const RangeImage& seen,
                         double radius) {
   return least_mean(first, second, radius,
                     [&](const Vector3d& axis) { return seen.shows_empty(axis, radius) ? 1.0 : 0.0; });
 }
 
-/// Finds links between two fragments.
+/// Finds the links between two fragments.
 class LinkFinder {
 public:
   LinkFinder(const std::vector<Fragment>& fragments, const RangeImage& seen, const TubeKind& kind,
@@ -150,7 +150,7 @@ public:
     }
   }
 
-  // To the other fragment's place of the least cost, as the paper's method weighs joins (Section 4).
+  // Links to the cheapest junction of the other fragment, with the paper's cost of a join (Section 4).
   void to_junction(std::size_t first, std::size_t second) {
     const Fragment& f = fragments_[first];
     constexpr double metres_for_a_radian = 0.1125;
@@ -181,20 +181,21 @@ private:
 
   void take_if_likely(Link link, const FragmentEnd& from, const FragmentEnd& to) {
     if (link.features[alpha] > settings_.angle_max || !is_likely(link)) return;
-    // What was seen makes it less likely, and takes the most time to know.
+    // Last, because it takes the longest to compute and can only make the link less likely.
     link.features[seen_empty] = share_seen_empty(from, to, seen_, kind_.radius);
     if (link.features[seen_empty] > settings_.seen_empty_max || !is_likely(link)) return;
     link.features[obstruction] = obstruction_of(link, from, to);
     if (is_likely(link)) links_.push_back(link);
   }
 
-  // Weighs a link by the features that are known so far.
+  // Weighs a link by the features known so far.
   bool is_likely(Link& link) const {
     link.weight = weight_of(link, settings_);
     return link.weight > 0;
   }
 
-  // Near the ends are the tube's own other pieces, and what a neighbour's centre line runs on.
+  // Ignores what is near the ends: other pieces of the same tube, and overshoots of a neighbour's centre
+  // line.
   double obstruction_of(const Link& link, const FragmentEnd& from, const FragmentEnd& to) const {
     const double diameter = 2 * kind_.radius;
     return std::sqrt(least_mean(from, to, kind_.radius, [&](const Vector3d& axis) {

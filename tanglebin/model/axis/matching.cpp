@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-// Compiled as C++17: LEMON 1.3.1 uses members of std::allocator that C++20 removed. Its templates are all
-// that is needed, not its library.
+// Compiled as C++17, because LEMON 1.3.1 uses members of std::allocator that C++20 removed. Uses LEMON's
+// templates only, not its library.
 #define LEMON_ONLY_TEMPLATES
 #include <lemon/matching.h>
 #include <lemon/smart_graph.h>
@@ -19,7 +19,7 @@ std::vector<std::size_t> heaviest_matching(std::size_t vertices, const std::vect
   std::vector<Graph::Node> nodes;
   nodes.reserve(vertices);
   for (std::size_t i = 0; i < vertices; ++i) nodes.push_back(graph.addNode());
-  // Whole numbers, so that the algorithm's comparisons are exact.
+  // Integers, so that the algorithm's comparisons are exact.
   constexpr double unit = 1e6;
   Graph::EdgeMap<std::int64_t> weights(graph);
   Graph::EdgeMap<std::size_t> pair_of(graph);

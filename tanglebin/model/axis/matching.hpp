@@ -12,9 +12,8 @@ struct WeightedPair {
   double weight;
 };
 
-/// The edges of a graph of `vertices` vertices that share none of them and whose weights, of which only
-/// positive ones count, have the greatest sum: indices into `pairs`, ascending. Exact to the millionth
-/// (Edmonds' algorithm).
+/// Maximum-weight matching (Edmonds' algorithm) in a graph with this number of vertices. Only edges with
+/// positive weights count. Returns ascending indices into `pairs`. Weights are rounded to 1e-6.
 std::vector<std::size_t> heaviest_matching(std::size_t vertices, const std::vector<WeightedPair>& pairs);
 
 }  // namespace tanglebin

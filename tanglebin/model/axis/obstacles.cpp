@@ -26,7 +26,7 @@ Obstacles::Obstacles(const std::vector<Fragment>& fragments, double radius) : di
 double Obstacles::overlap(const Vector3d& axis, std::size_t first, std::size_t second) const {
   const auto found = around_.find(voxel_key(voxel_at(axis, diameter_)));
   if (found == around_.end()) return 0;
-  double nearest = diameter_ * diameter_;  // squared, m²
+  double nearest = diameter_ * diameter_;  // m², squared distance
   for (const Node& node : found->second) {
     if (node.fragment == first || node.fragment == second) continue;
     nearest = std::min(nearest, (node.position - axis).squaredNorm());

@@ -10,13 +10,13 @@
 
 namespace tanglebin {
 
-/// Where fragments of tubes are, so that no other tube is there.
+/// The space that fragments fill, where no other tube can be.
 class Obstacles {
 public:
   Obstacles(const std::vector<Fragment>& fragments, double radius);
 
-  /// How deep the axis of a tube (m, world frame) is in fragments other than two: 1 on the centre line of
-  /// one, 0 where it is a diameter away from all of them.
+  /// How deep a point (m, world frame) of a tube's axis lies inside fragments other than `first` and
+  /// `second`: 1 on the centre line of one, 0 at a diameter or more from all.
   double overlap(const Eigen::Vector3d& axis, std::size_t first, std::size_t second) const;
 
 private:
@@ -26,7 +26,8 @@ private:
   };
 
   double diameter_;
-  std::unordered_map<std::uint64_t, std::vector<Node>> around_;  // cells, a diameter wide, and next to them
+  // For each cell, a diameter wide: the nodes in it and in the cells around it.
+  std::unordered_map<std::uint64_t, std::vector<Node>> around_;
 };
 
 }  // namespace tanglebin

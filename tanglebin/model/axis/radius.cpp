@@ -13,7 +13,7 @@ namespace tanglebin {
 
 double estimate_radius(const PointCloud& cloud, const KnownScene& known) {
   const PixelGrid grid(picked(cloud.points, crop(cloud, known.bin, {})), known.camera);
-  // Pairs of the right distance need the radius: begin with a likely one.
+  // Pairs at the right distance need the radius, so start from a likely one.
   auto radius = static_cast<float>(TubeKind().radius);
   constexpr int refinements = 6;
   constexpr std::size_t pairs_min = 100;
@@ -21,8 +21,8 @@ double estimate_radius(const PointCloud& cloud, const KnownScene& known) {
     std::vector<float> radii;
     for (const PairRadius& pair : radii_of_pairs(grid, radius)) radii.push_back(pair.radius);
     if (radii.size() < pairs_min) {
-      throw InputError({"", 0, "radius"}, "too few points of a tube to estimate it from",
-                       "a cloud that shows some, or the radius itself");
+      throw InputError({"", 0, "radius"},
+                       "the cloud shows too little of a tube to estimate it; give the radius");
     }
     radius = median(std::move(radii));
   }

@@ -5,8 +5,8 @@
 
 namespace tanglebin {
 
-/// The radius, m, of the tubes in a cloud (arguments as for model_tubes(); known.kinds are not looked
-/// at). All tubes are taken to have one. Throws InputError for a cloud that shows too little of a tube.
+/// Estimates the one radius, m, of all tubes in a cloud. Arguments as for model_tubes(); known.kinds is
+/// ignored. Throws InputError if the cloud shows too little of a tube.
 double estimate_radius(const PointCloud& cloud, const KnownScene& known);
 
 }  // namespace tanglebin

@@ -24,12 +24,12 @@ struct Voxel {
   Vector3i key;
   Vector3d sum = Vector3d::Zero();  // of its points
   std::size_t points = 0;
-  std::vector<std::size_t> neighbours{};  // voxels that touch it
+  std::vector<std::size_t> neighbours{};  // touching voxels
 
   Vector3d mean() const { return sum / static_cast<double>(points); }
 };
 
-// One of each two opposite neighbours of a voxel.
+// One of each pair of opposite neighbours of a voxel.
 std::array<Vector3i, 13> half_of_the_neighbours() {
   std::array<Vector3i, 13> offsets;
   std::size_t count = 0;
@@ -45,7 +45,7 @@ std::array<Vector3i, 13> half_of_the_neighbours() {
 
 struct VoxelGrid {
   std::vector<Voxel> voxels;
-  std::vector<std::size_t> of_points;  // the voxel of each point; none where it is not finite
+  std::vector<std::size_t> of_points;  // for each point its voxel; none if the point is not finite
 };
 
 VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, double size) {
@@ -93,13 +93,13 @@ std::vector<std::vector<std::size_t>> connected_components(const std::vector<Vox
   return components;
 }
 
-/// Lays trees along components of the voxels.
+/// Lays a tree along each connected component of the voxels.
 class TreeMaker {
 public:
   TreeMaker(const std::vector<Voxel>& voxels, double step)
       : voxels_(voxels), step_(step), distances_(voxels.size()), nodes_(voxels.size(), none) {}
 
-  // The nodes are the level sets of the distance from one end, as in a Reeb graph.
+  // The nodes are level sets of the distance from one end, as in a Reeb graph.
   Skeleton tree(std::vector<std::size_t> component) {
     measure_from(component.front(), component);
     const std::size_t end =
@@ -136,8 +136,8 @@ private:
 
   int level(std::size_t voxel) const { return static_cast<int>(distances_[voxel] / step_); }
 
-  // A node for all voxels of this level that are connected with this one; its parent is the first of the
-  // nodes below that it touches.
+  // Adds a node for all voxels of this level that are connected with `first`. Its parent is the first node of
+  // the level below that it touches.
   void add_node(Skeleton& skeleton, std::size_t first) {
     const std::size_t node = skeleton.nodes.size();
     std::size_t parent = none;
@@ -163,11 +163,11 @@ private:
   const std::vector<Voxel>& voxels_;
   double step_;
   std::vector<double> distances_;   // of each voxel from the end of its component
-  std::vector<std::size_t> nodes_;  // that each voxel belongs to
+  std::vector<std::size_t> nodes_;  // of each voxel
 };
 
-/// Cuts a tree down to the longest path from its first node and to its true branches: those that are long,
-/// and whose tips are away from the rest. What noise splits off runs beside it.
+/// Prunes a tree to the longest path from its first node and its true branches. These are long, and their
+/// tips are away from the rest; branches that are only noise run beside it.
 class Pruner {
 public:
   Pruner(const Skeleton& whole, double branch_min)
@@ -176,7 +176,7 @@ public:
         below_(whole.nodes.size(), 0),
         next_(whole.nodes.size(), none),
         kept_(whole.nodes.size()) {
-    // Children come after their parents, so that all below a node is known before it.
+    // Children come after their parents, so everything below a node is known before the node.
     for (std::size_t node = whole.nodes.size(); node-- > 1;) {
       const std::size_t parent = whole.parents[node];
       if (next_[parent] != none && through(node) <= below_[parent]) continue;
@@ -187,7 +187,7 @@ public:
 
   Skeleton pruned() {
     keep(0);
-    // A branch starts from one that is longer.
+    // A branch starts from a longer one.
     for (const std::size_t node : branches()) {
       if (kept_[whole_.parents[node]] && is_apart(tip_of(node))) keep(node);
     }
@@ -203,12 +203,12 @@ public:
   }
 
 private:
-  // m, the longest way down from the node's parent that goes through it.
+  // The longest path down from the node's parent through the node, m.
   double through(std::size_t node) const {
     return below_[node] + (whole_.nodes[node] - whole_.nodes[whole_.parents[node]]).norm();
   }
 
-  // The first nodes of those that are long enough, the longest first.
+  // The first nodes of the branches that are long enough, longest first.
   std::vector<std::size_t> branches() const {
     std::vector<std::size_t> result;
     for (std::size_t node = 1; node < whole_.nodes.size(); ++node) {
@@ -230,15 +230,15 @@ private:
     return true;
   }
 
-  // From a node down to the tip.
+  // Keeps the longest path from a node down to a tip.
   void keep(std::size_t node) {
     for (; node != none; node = next_[node]) kept_[node] = true;
   }
 
   const Skeleton& whole_;
   double branch_min_;
-  std::vector<double> below_;      // m, the longest way down from each node
-  std::vector<std::size_t> next_;  // where it goes first; none at a tip
+  std::vector<double> below_;      // m, the longest path down from each node
+  std::vector<std::size_t> next_;  // first node of that path; none at a tip
   std::vector<bool> kept_;
 };
 

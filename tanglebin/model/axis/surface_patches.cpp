@@ -14,8 +14,8 @@ namespace {
 using Eigen::Matrix3f;
 using Eigen::Vector3f;
 
-// Four numbers that the processor's vector instructions treat at once (GCC manual, "Vector Extensions"; clang
-// has them too). This is where the method spends its time.
+// Four numbers for the processor's vector instructions (GCC manual, "Vector Extensions"; clang has them too).
+// The method spends most of its time here.
 constexpr int lanes = 4;
 using Lanes [[gnu::vector_size(lanes * sizeof(float))]] = float;
 using LaneNumbers [[gnu::vector_size(lanes * sizeof(int))]] = int;
@@ -30,7 +30,7 @@ auto sum(auto values) {
   return (values[0] + values[1]) + (values[2] + values[3]);
 }
 
-/// Sums over the neighbours of a point, relative to it.
+/// Sums over the neighbours of a point, relative to the point.
 struct Sums {
   LaneNumbers count{};
   Lanes x{}, y{}, z{}, xx{}, yy{}, zz{}, yz{}, zx{}, xy{};
@@ -41,7 +41,7 @@ struct Sums {
       const Lanes dx = load(run.x + first) - origin.x();
       const Lanes dy = load(run.y + first) - origin.y();
       const Lanes dz = load(run.z + first) - origin.z();
-      // −1 where it is true, 0 elsewhere.
+      // −1 if true, else 0.
       const LaneNumbers is_near =
           (dx * dx + dy * dy + dz * dz <= reach_squared) & (numbers < run.size - first);
       const Lanes near_x = is_near ? dx : Lanes{};
@@ -63,7 +63,7 @@ struct Sums {
 
 /// The neighbours of a point.
 struct Neighbourhood {
-  int count;            ///< with the point itself
+  int count;            ///< includes the point itself
   Vector3f mean;        ///< m, relative to the point
   Matrix3f covariance;  ///< in squares of the reach
 };
@@ -71,7 +71,7 @@ struct Neighbourhood {
 Neighbourhood neighbourhood(const PixelGrid& grid, std::size_t item, float reach) {
   const Vector3f point = grid.point(item);
   const auto [column, row] = grid.pixels()[item];
-  // Rounded up from half a pixel on, since points need not be in the middle of theirs.
+  // Rounded up from half a pixel, because points need not lie at the centres of their pixels.
   const auto window = static_cast<int>(std::lround(grid.pixels_across(reach, point)));
   Sums sums;
   for (int v = row - window; v <= row + window; ++v) {
@@ -87,22 +87,22 @@ Neighbourhood neighbourhood(const PixelGrid& grid, std::size_t item, float reach
   return {count, mean, (products / n - mean * mean.transpose()) / (reach * reach)};
 }
 
-/// The plane through some points: its unit normal, the points' variance about it, and the lesser of their two
-/// variances in it.
+/// The plane through some points: its unit normal, the points' variance about it, and the smaller of their
+/// two variances within it.
 struct Plane {
   Vector3f normal;
   float roughness;
   float breadth;
 };
 
-// The principal directions of the points, by their covariance. The least is the greatest of the adjugate,
-// which taken to the eighth power has nothing but that direction left.
+// Principal components of the points from their covariance. The direction of least variance is the adjugate's
+// dominant eigenvector; in the adjugate's eighth power only that direction remains.
 Plane plane_of(const Matrix3f& covariance) {
   Matrix3f adjugate;
   adjugate.col(0) = covariance.col(1).cross(covariance.col(2));
   adjugate.col(1) = covariance.col(2).cross(covariance.col(0));
   adjugate.col(2) = covariance.col(0).cross(covariance.col(1));
-  const float minors = adjugate.trace();  // the sum of the products of two variances
+  const float minors = adjugate.trace();  // sum of the products of two variances
   Matrix3f power = adjugate;
   for (int i = 0; i < 3; ++i) {
     power /= power.trace();

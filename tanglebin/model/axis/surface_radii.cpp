@@ -9,21 +9,21 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Patches of a grid's points, and how far they reach, m.
+/// The patches of a grid's points, and their reach, m.
 struct Surface {
   const PixelGrid& grid;
   float reach;
   std::vector<std::optional<Patch>> patches;
 };
 
-// With p and q the middles of two patches and n and m their normals p − q = r (n − m), but for what is along
-// the axis, to which the normals are square. Two corrections, each half of the variance across the tube over
-// the radius: a patch's plane passes below the surface by the sagitta; and where the surface falls away from
-// the sensor its points are denser on the near side, which tilts the plane farther than the surface at its
-// middle.
+// Let p and q be the middles of two patches and n and m their normals. Then p − q = r (n − m), except along
+// the axis, to which the normals are perpendicular. There are two corrections, each half of the variance
+// across the tube over the radius. A patch's plane lies below the surface by the sagitta. Where the surface
+// falls away from the sensor, points are denser on the near side, which tilts the plane more than the surface
+// at its middle.
 std::optional<float> radius_of_pair(const Surface& surface, std::size_t first, std::size_t second,
                                     float distance_max) {
-  constexpr float turn_min = 0.3F;  // rad, about
+  constexpr float turn_min = 0.3F;  // rad, approximate
   const Patch& one = *surface.patches[first];
   const Patch& other = *surface.patches[second];
   const Vector3f way = surface.grid.point(first) + one.mean - surface.grid.point(second) - other.mean;
@@ -40,7 +40,7 @@ std::vector<PairRadius> radii_of_pairs(const PixelGrid& grid, double radius, con
   const float reach = suitable_reach(grid, radius, settings);
   const Surface surface{grid, reach, surface_patches(grid, reach, settings)};
   constexpr float share = 0.8F;
-  constexpr float slope = 1.5F;  // points that are farther apart in depth are on two tubes
+  constexpr float slope = 1.5F;  // points that differ more in depth are on two tubes
   const float distance = share * static_cast<float>(radius);
   std::vector<PairRadius> pairs;
   for (std::size_t item = 0; item < grid.size(); ++item) {

@@ -9,18 +9,18 @@
 // Internal to the room.
 namespace tanglebin {
 
-/// What two points of a cloud, with the surface around them, say of the radius if they are on one cylinder.
+/// The radius that follows from two points and the surface around them if both are on one cylinder.
 struct PairRadius {
-  std::size_t first;  ///< the points' places in the grid
+  std::size_t first;  ///< indices of the points in the grid
   std::size_t second;
   float radius;  ///< m
 };
 
-/// Patches that are small enough for what follows.
+/// Patches small enough for these pairs.
 inline constexpr PatchSettings pair_patches{.neighbours = 20, .reach_min = 0.25};
 
-/// Of all pairs of a grid's points that are 0.8 of this radius (m) apart, along rows and columns, and on
-/// which the surface's normals differ: as many as there are points, about.
+/// The radii from pairs of points in the grid that lie 0.8 of this radius (m) apart, along rows and columns,
+/// and whose surface normals differ. There are about as many pairs as points.
 std::vector<PairRadius> radii_of_pairs(const PixelGrid& grid, double radius,
                                        const PatchSettings& settings = pair_patches);
 

@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-// Ramer–Douglas–Peucker: marks the nodes of a path, between its first and last, that it needs to be this near
-// to all.
+// Ramer–Douglas–Peucker: marks the nodes of a path, between its first and last, that are needed to stay
+// within the tolerance of all nodes.
 void mark_needed(const std::vector<Vector3d>& nodes, const std::vector<std::size_t>& path, std::size_t first,
                  std::size_t last, double tolerance, std::vector<bool>& needed) {
   double farthest = tolerance;
@@ -34,7 +34,7 @@ void mark_needed(const std::vector<Vector3d>& nodes, const std::vector<std::size
   mark_needed(nodes, path, at, last, tolerance, needed);
 }
 
-// The nodes of a path that are needed, without those that nearly coincide.
+// The needed nodes of a path, without those that nearly coincide.
 std::vector<std::size_t> needed_nodes(const LineTree& line, const std::vector<std::size_t>& path,
                                       double tolerance) {
   std::vector<bool> needed(line.nodes.size());
@@ -48,7 +48,7 @@ std::vector<std::size_t> needed_nodes(const LineTree& line, const std::vector<st
   return kept;
 }
 
-// Fewer nodes: ends and junctions, which come first, and the bends between them.
+// Keeps the ends and junctions, which come first, and the bends between them.
 LineTree simplified(const LineTree& line, double tolerance) {
   const Paths paths(line);
   LineTree result;
@@ -70,7 +70,7 @@ LineTree simplified(const LineTree& line, double tolerance) {
   return result;
 }
 
-/// The edge that a point is nearest to, and where.
+/// The point of the centre line nearest to a point, with its edge.
 struct Foot {
   std::size_t edge;
   double t;
@@ -92,8 +92,8 @@ Foot foot_of(const LineTree& line, const Vector3d& point) {
   return foot;
 }
 
-// One Gauss-Newton step for the distances of the points to the surface, damped so that what no point speaks
-// of stays where it is.
+// One Gauss-Newton step on the distances of the points to the surface. Damped, so that parts without points
+// stay in place.
 void improve(LineTree& line, const std::vector<Vector3d>& points, double radius, double residual_max) {
   const auto size = static_cast<Eigen::Index>(3 * line.nodes.size());
   Eigen::MatrixXd normal_matrix = Eigen::MatrixXd::Zero(size, size);
@@ -115,7 +115,7 @@ void improve(LineTree& line, const std::vector<Vector3d>& points, double radius,
     right_side.segment<3>(a) += s * residual * direction;
     right_side.segment<3>(b) += foot.t * residual * direction;
   }
-  constexpr double damping = 0.01;  // of a node's share of the points
+  constexpr double damping = 0.01;  // relative to the node's share of the points
   normal_matrix.diagonal().array() +=
       damping * static_cast<double>(points.size() + 1) / static_cast<double>(line.nodes.size());
   const Eigen::VectorXd step = normal_matrix.ldlt().solve(right_side);
@@ -138,7 +138,7 @@ std::vector<Vector3d> some_points(const std::vector<Fragment>& fragments,
   return some;
 }
 
-// Named nodes are 1, 2, …; inner ones follow after a gap, as in the published data.
+// Named nodes are 1, 2, …; inner nodes follow after a gap, as in the published data.
 Tube tube_of(const LineTree& line, double radius) {
   const auto neighbours = neighbours_in(line);
   const auto named = std::ranges::count_if(neighbours, [](const auto& around) { return around.size() != 2; });

@@ -11,10 +11,9 @@
 
 namespace tanglebin {
 
-/// The tube of some fragments (their indices) and of those of the chosen links that are between them:
-/// straight pieces, as few as follow the fragments' centre lines, then moved by least squares so that the
-/// surface of this radius (m) passes through the fragments' points. Ends and junctions are nodes 1, 2, …;
-/// mass 0.
+/// Fits a tube to the fragments `members` and the chosen links between them. As few straight pieces as
+/// possible follow the centre line; least squares then moves them so that a surface of this radius (m) passes
+/// through the fragments' points. Ends and junctions are nodes 1, 2, …; the mass is 0.
 Tube fit_tube(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
               const std::vector<Link>& links, const std::vector<std::size_t>& chosen,
               const std::vector<Eigen::Vector3f>& points, double radius, const TubeFitSettings& settings);

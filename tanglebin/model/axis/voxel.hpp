@@ -5,12 +5,12 @@
 
 namespace tanglebin {
 
-/// The cell of a grid that a position is in, both in metres.
+/// The grid cell that contains a position; position and cell size in metres.
 inline Eigen::Vector3i voxel_at(const Eigen::Vector3d& position, double size) {
   return (position / size).array().floor().cast<int>();
 }
 
-/// A cell of a grid as one number. Coordinates from −2²⁰ to 2²⁰ − 1.
+/// A grid cell as a single number. Coordinates range from −2²⁰ to 2²⁰ − 1.
 inline std::uint64_t voxel_key(const Eigen::Vector3i& cell) {
   constexpr int bits = 21;
   constexpr int offset = 1 << (bits - 1);

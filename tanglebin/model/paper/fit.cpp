@@ -18,7 +18,7 @@ namespace {
 
 using CylinderModel = pcl::SampleConsensusModelCylinder<pcl::PointXYZ, pcl::Normal>;
 
-/// A cylinder without ends, and the points that lie on it.
+/// An infinite cylinder and its inliers.
 struct EndlessCylinder {
   Eigen::Vector3d point;  ///< on the axis
   Eigen::Vector3d axis;   ///< unit
@@ -48,7 +48,7 @@ std::shared_ptr<CylinderModel> cylinder_model(const OrientedCloud& points, doubl
   return model;
 }
 
-// The cylinder with the most of the given points on it.
+// The cylinder with the most inliers among the given points.
 std::optional<EndlessCylinder> best_cylinder(const OrientedCloud& cloud,
                                              const std::vector<std::size_t>& indices, double radius,
                                              const FitSettings& settings) {
@@ -79,7 +79,7 @@ std::optional<EndlessCylinder> best_cylinder(const OrientedCloud& cloud,
   return cylinder;
 }
 
-// The longest run of the cylinder's points without a gap along its axis, as a piece with ends.
+// The longest run of inliers without a gap along the axis, as a cylinder with ends.
 Cylinder densest_piece(const OrientedCloud& cloud, const EndlessCylinder& cylinder,
                        const FitSettings& settings) {
   std::vector<std::pair<double, std::size_t>> along;  // position on the axis, point
@@ -112,7 +112,7 @@ Cylinder densest_piece(const OrientedCloud& cloud, const EndlessCylinder& cylind
   return piece;
 }
 
-// Whether a point is about the piece: nothing else is fitted there.
+// True if a point is so near to the piece that it must not be fitted again.
 bool is_about(const Cylinder& piece, const Eigen::Vector3d& point, double radius,
               const FitSettings& settings) {
   const Eigen::Vector3d axis = (piece.ends[1] - piece.ends[0]).normalized();

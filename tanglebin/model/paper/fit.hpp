@@ -10,14 +10,14 @@
 
 namespace tanglebin {
 
-/// A piece of a tube that is straight.
+/// A straight piece of a tube.
 struct Cylinder {
   std::array<Eigen::Vector3d, 2> ends;  ///< m, on the axis
   std::vector<std::size_t> points;      ///< its inliers: indices into the cloud's arrays, ascending
 };
 
-/// Cylinders of about the known radius (m) in one cluster of the cloud: RANSAC with normals, repeated on what
-/// the last cylinder left until none is found.
+/// Finds cylinders of about the known radius (m) in one cluster of the cloud: RANSAC with normals, repeated
+/// on the remaining points until it finds no more.
 std::vector<Cylinder> fit_cylinders(const OrientedCloud& cloud, const std::vector<std::size_t>& cluster,
                                     double radius, const FitSettings& settings);
 

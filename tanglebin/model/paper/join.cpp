@@ -19,7 +19,7 @@ Eigen::Vector3d outward(const Cylinder& cylinder, std::size_t end) {
   return (cylinder.ends[end] - cylinder.ends[1 - end]).normalized();
 }
 
-// Every pair of ends of distinct cylinders under both thresholds, cheapest first.
+// All pairs of ends of distinct cylinders below both thresholds, cheapest first.
 std::vector<Join> candidates(const std::vector<Cylinder>& cylinders, const JoinSettings& settings) {
   const double metres_for_a_radian = settings.distance_max / settings.angle_max;
   std::vector<Join> joins;
@@ -40,7 +40,7 @@ std::vector<Join> candidates(const std::vector<Cylinder>& cylinders, const JoinS
   return joins;
 }
 
-/// Which cylinders are in one tube, and how long it is.
+/// Tracks which cylinders are in one tube, and the tube's length.
 class TubesInTheMaking {
 public:
   explicit TubesInTheMaking(const std::vector<Cylinder>& cylinders) : sets_(cylinders.size()) {
@@ -63,10 +63,10 @@ public:
 
 private:
   boost::disjoint_sets_with_storage<> sets_;
-  std::vector<double> lengths_;  // m, of the tube that a set stands for
+  std::vector<double> lengths_;  // m, of the tube that each set represents
 };
 
-/// To which end of another cylinder each end is joined.
+/// For each end of each cylinder, the end that it is joined to.
 using Neighbours = std::vector<std::array<std::optional<CylinderEnd>, 2>>;
 
 Neighbours neighbours_of(std::size_t cylinders, const std::vector<Join>& joins) {
@@ -78,14 +78,14 @@ Neighbours neighbours_of(std::size_t cylinders, const std::vector<Join>& joins) 
   return neighbours;
 }
 
-// The end at which the chain of this cylinder begins: the one that is free when walked to from its end 1.
+// The free end at which the chain of this cylinder begins, reached by walking from its end 1.
 CylinderEnd start_of_chain(const Neighbours& neighbours, std::size_t cylinder) {
   CylinderEnd end{cylinder, 0};
   while (const auto& next = neighbours[end.cylinder][end.end]) end = {next->cylinder, 1 - next->end};
   return end;
 }
 
-// Ends closer than this are one node, m.
+// m; closer ends are one node
 constexpr double same_place = 1e-6;
 
 void extend(Tube& tube, const Eigen::Vector3d& to) {

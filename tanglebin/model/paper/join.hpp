@@ -23,9 +23,9 @@ struct Join {
   double cost;  ///< m
 };
 
-/// The cost of a join (Section 4): |p1 − p2| + w α with α = angle(a1, v) + angle(a2, v), v the direction
-/// p1 → p2, a1 the first cylinder's axis outward at p1, a2 the second's inward at p2; w, m for each radian,
-/// is the ratio of the two thresholds.
+/// The terms of the cost of a join (Section 4), |p1 − p2| + w α. Here α = angle(a1, v) + angle(a2, v), v is
+/// the direction p1 → p2, a1 the first cylinder's axis outward at p1, and a2 the second's inward at p2. The
+/// weight w (m per radian) is the ratio of the two thresholds.
 struct JoinMeasures {
   double distance;  ///< m
   double angle;     ///< rad, α
@@ -33,20 +33,19 @@ struct JoinMeasures {
 JoinMeasures measure_join(const Cylinder& first, std::size_t first_end, const Cylinder& second,
                           std::size_t second_end);
 
-/// Joins cylinders into tubes, greedily by increasing cost. A pair of ends is taken when both are free and in
-/// different tubes, distance and angle are under their thresholds, the tube does not become longer than
-/// `length` (m), and the way between them is not seen to be empty: something hides its middle from the
-/// sensor.
+/// Joins cylinders into tubes, greedily by increasing cost. A pair of ends is accepted if both are free and
+/// in different tubes, their distance and angle are below the thresholds, the tube gets no longer than
+/// `length` (m), and the gap was not seen to be empty: something occludes its middle.
 std::vector<Join> join_cylinders(const std::vector<Cylinder>& cylinders, const RangeImage& seen,
                                  double length, const JoinSettings& settings);
 
-/// A tube, and the cylinders that it was made of.
+/// A tube and its cylinders.
 struct JoinedTube {
-  Tube tube;  ///< a chain: an edge for each cylinder, and one for each joint between the ends that it joins
-  std::vector<std::size_t> cylinders;  ///< in the chain's order
+  Tube tube;  ///< a chain: an edge for each cylinder, and one for each joint between two joined ends
+  std::vector<std::size_t> cylinders;  ///< in the order of the chain
 };
 
-/// The tubes that the joins make of the cylinders: ids 1, 2, … by the first of its cylinders.
+/// The tubes that result from the joins. Ids 1, 2, … follow each tube's first cylinder.
 std::vector<JoinedTube> joined_tubes(const std::vector<Cylinder>& cylinders, const std::vector<Join>& joins,
                                      double radius);
 

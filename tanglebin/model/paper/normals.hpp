@@ -8,16 +8,16 @@
 
 namespace tanglebin {
 
-/// Points with their normals; arrays of equal length.
+/// Points with normals; all arrays have the same length.
 struct OrientedCloud {
-  std::vector<std::size_t> indices;      ///< in the cloud that they come from, ascending
+  std::vector<std::size_t> indices;      ///< in the original cloud, ascending
   std::vector<Eigen::Vector3f> points;   ///< m
   std::vector<Eigen::Vector3f> normals;  ///< unit, towards the sensor
   std::vector<float> curvatures;         ///< surface variation: 0 on a plane
 };
 
-/// These points with normals from their `neighbours` nearest among them, turned towards `sensor` (m). A cloud
-/// of fewer than three points has no normals: the result is empty.
+/// The points at `indices`, each with a normal from its `neighbours` nearest points among them, turned
+/// towards `sensor` (m). Fewer than three points have no normals; the result is then empty.
 OrientedCloud with_normals(const PointCloud& cloud, const std::vector<std::size_t>& indices,
                            const Eigen::Vector3d& sensor, int neighbours);
 

@@ -21,7 +21,7 @@ std::vector<Cylinder> fit_clusters(const OrientedCloud& cloud,
   return cylinders;
 }
 
-// The points that the cylinders of each tube were fitted to are that tube's.
+// Gives each tube the points that its cylinders were fitted to.
 std::vector<std::int32_t> claimed_points(std::size_t points, const PaperModel& found,
                                          const std::vector<JoinedTube>& tubes) {
   std::vector<std::int32_t> labels(points, null_label);

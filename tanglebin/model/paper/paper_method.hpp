@@ -17,21 +17,21 @@
 
 namespace tanglebin {
 
-/// A model and what the steps before made of the cloud.
+/// A model, with the results of the steps.
 struct PaperModel {
   Model model;
   OrientedCloud filtered;
-  std::vector<std::vector<std::size_t>> clusters;  ///< of indices into filtered's arrays
+  std::vector<std::vector<std::size_t>> clusters;  ///< indices into filtered's arrays
   std::vector<Cylinder> cylinders;
   std::vector<Join> joins;
 };
 
-/// Throws InputError where this program was built without the Point Cloud Library, which the paper's method
+/// Throws InputError if this program was built without the Point Cloud Library, which the paper's method
 /// needs.
 void expect_paper_method();
 
-/// The tube modelling algorithm of the paper (Section 4), for tubes that are chains of cylinders. Arguments
-/// as for model_tubes(). Throws InputError without the Point Cloud Library.
+/// The paper's tube modelling algorithm (Section 4), for tubes that are chains of cylinders. Arguments as for
+/// model_tubes(). Throws InputError if built without the Point Cloud Library.
 PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, double ratio,
                              std::uint64_t seed, const PaperSettings& settings = {});
 

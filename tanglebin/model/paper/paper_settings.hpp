@@ -4,38 +4,38 @@
 
 namespace tanglebin {
 
-/// Segment: regions of similar normals.
+/// Segment: grows regions of similar normals.
 struct RegionSettings {
-  int neighbours = 15;          ///< nearest points that a region grows to
-  double angle_max = 0.25;      ///< rad, between the normals of neighbours in one region
-  double curvature_max = 0.05;  ///< a point of more surface variation is an edge: no region grows on from it
+  int neighbours = 15;          ///< nearest points that a region may grow to
+  double angle_max = 0.25;      ///< rad, between the normals of neighbouring points in a region
+  double curvature_max = 0.05;  ///< surface variation; regions do not grow beyond points above it (edges)
   int points_min = 12;          ///< smaller regions are dropped
 };
 
-/// Fit: cylinders in a region, by RANSAC.
+/// Fit: finds cylinders in a region by RANSAC.
 struct FitSettings {
   double distance_max =
-      0.002;  ///< m, of an inlier: (1 − w) · distance to the surface + w · error of the normal
-  double normal_weight = 0.02;     ///< w, the normal's error in radians
-  double radius_tolerance = 0.15;  ///< of the known radius, either way
-  double sample_distance = 0.05;   ///< m, between the two points that a trial cylinder is made of, at most
-  int iterations_max = 150;        ///< trials for one cylinder
-  int points_min = 12;             ///< inliers of a cylinder; also what must be left of a cluster to go on
-  double gap_max = 0.02;           ///< m, along the axis; inliers beyond a longer gap are another cylinder's
-  double claim_distance = 0.005;   ///< m; points this near to a cylinder's surface are not fitted again
-  double length_min = 0.005;       ///< m, after trimming; shorter pieces have no direction to speak of
-  double trim = 0.004;             ///< m, taken off each end, which reaches into the bend
+      0.002;  ///< m, for inliers: (1 − w) · distance to the surface + w · error of the normal
+  double normal_weight = 0.02;     ///< w, per radian of error of the normal
+  double radius_tolerance = 0.15;  ///< relative to the known radius
+  double sample_distance = 0.05;  ///< m, largest distance between the two points that define a trial cylinder
+  int iterations_max = 150;       ///< trials for one cylinder
+  int points_min = 12;  ///< inliers of a cylinder; also the points that must remain in a cluster to continue
+  double gap_max = 0.02;  ///< m, along the axis; inliers beyond a longer gap belong to another cylinder
+  double claim_distance = 0.005;  ///< m; points this near to a cylinder's surface are not fitted again
+  double length_min = 0.005;      ///< m, after trimming; shorter pieces have no reliable direction
+  double trim = 0.004;            ///< m, cut off each end, which reaches into the bend
 };
 
-/// Join: cylinders into tubes.
+/// Join: joins cylinders into tubes.
 struct JoinSettings {
-  double distance_max = 0.25;  ///< m, between two ends
-  double angle_max = 2.5;  ///< rad, α: how far both cylinders together turn away from the way between them
-  int hidden_radius = 5;   ///< pixels around the middle of the way that may hide it
-  double length_tolerance = 0.05;  ///< of the known length, by which a tube may be too long
+  double distance_max = 0.25;      ///< m, between two ends
+  double angle_max = 2.5;          ///< rad, α: the angles of both cylinders with the gap between them
+  int hidden_radius = 5;           ///< pixels around the middle of the gap in which an occluder counts
+  double length_tolerance = 0.05;  ///< how much longer than known a tube may be, as a fraction
 };
 
-/// The parameters of the paper's method. The paper gives no values; docs/algorithm.md says how these were
+/// The parameters of the paper's method. The paper gives no values; docs/algorithm.md explains how these were
 /// found and what each trades.
 struct PaperSettings {
   FilterSettings filter;

@@ -6,15 +6,15 @@
 
 #include "tanglebin/model/paper/normals.hpp"
 
-// Internal to the room: the Point Cloud Library's types.
+// Internal to the room: types of the Point Cloud Library.
 namespace tanglebin {
 
-/// PCL's copies of points and normals, one cloud of each.
+/// Copies of points and normals as PCL clouds.
 pcl::PointCloud<pcl::PointXYZ>::Ptr pcl_points(const std::vector<Eigen::Vector3f>& points);
 pcl::PointCloud<pcl::Normal>::Ptr pcl_normals(const OrientedCloud& cloud);
 
-/// While it lives, PCL prints nothing: what it complains of (two samples at one place, no cylinder found) is
-/// everyday business here.
+/// Silences PCL while it exists. PCL's complaints (two samples at one place, no cylinder found) are normal
+/// here.
 class QuietPcl {
 public:
   QuietPcl() : level_(pcl::console::getVerbosityLevel()) {

@@ -8,8 +8,8 @@
 
 namespace tanglebin {
 
-/// Clusters of neighbouring points with similar normals: region growing (Rabbani et al. 2006, as PCL has it).
-/// Each is a list of indices into the cloud's arrays; some points are in none.
+/// Clusters of neighbouring points with similar normals, by region growing (Rabbani et al. 2006, PCL's
+/// implementation). Each is a list of indices into the cloud's arrays; some points are in no cluster.
 std::vector<std::vector<std::size_t>> grow_regions(const OrientedCloud& cloud,
                                                    const RegionSettings& settings);
 

@@ -1,12 +1,13 @@
-// In place of the room's other sources where the Point Cloud Library is not installed.
+// Replaces the room's other sources if the Point Cloud Library is not installed.
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
 
 namespace tanglebin {
 
 void expect_paper_method() {
-  throw InputError({"", 0, "method"}, "paper, which needs the Point Cloud Library",
-                   "axis; or run scripts/setup paper and build again");
+  throw InputError({"", 0, "method"},
+                   "the paper's method needs the Point Cloud Library, which this build lacks; use "
+                   "--method axis, or run scripts/setup paper and build again");
 }
 
 PaperModel model_as_in_paper(const PointCloud& /*cloud*/, const KnownScene& /*known*/, double /*ratio*/,

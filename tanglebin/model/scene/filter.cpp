@@ -27,7 +27,7 @@ std::vector<std::size_t> crop(const PointCloud& cloud, const Bin& bin, const Fil
   return kept;
 }
 
-// Knuth, The Art of Computer Programming, volume 2, 3.4.2, Algorithm S.
+// Algorithm S (Knuth, The Art of Computer Programming, volume 2, 3.4.2).
 std::vector<std::size_t> downsample(const std::vector<std::size_t>& indices, double ratio,
                                     std::uint64_t seed) {
   const auto wanted = static_cast<std::size_t>(std::llround(ratio * static_cast<double>(indices.size())));

@@ -10,13 +10,12 @@
 
 namespace tanglebin {
 
-/// The points around the known bin that are not the bin itself: a crop box for floor and walls, and nothing
-/// is cut above the rim, since tubes stick out over it. Points without a finite position are left out. Gives
-/// indices, ascending.
+/// Indices, ascending, of the points around the known bin that are not the bin itself. The crop box follows
+/// the floor and walls. Nothing is cropped above the rim, because tubes stick out over it. Points without a
+/// finite position are dropped.
 std::vector<std::size_t> crop(const PointCloud& cloud, const Bin& bin, const FilterSettings& settings);
 
-/// Draws a share of the indices at random, without putting back, in their order: ratio · size of them,
-/// rounded.
+/// Draws ratio · size of the indices (rounded) at random without replacement, and keeps their order.
 std::vector<std::size_t> downsample(const std::vector<std::size_t>& indices, double ratio,
                                     std::uint64_t seed);
 

@@ -22,20 +22,20 @@ void check_positive(double value, const std::string& field) {
 void validate(const KnownScene& known) {
   validate(known.bin);
   validate(known.camera);
-  if (known.kinds.empty()) throw InputError({"", 0, "kinds"}, "none", "at least one kind of tubes");
+  if (known.kinds.empty()) throw InputError({"", 0, "kinds"}, "none", "at least one kind of tube");
   std::set<double> radii;
   for (const TubeKind& kind : known.kinds) {
     check_positive(kind.radius, "radius");
     validate(kind.segments, kind.branches() ? "tree" : "length");
-    // Grids of cells as wide as a tube have no more cells than their indices can count.
-    constexpr double thinnest = 1e-5;  // of the bin's length
+    // Keeps the cell indices of grids with tube-wide cells in range.
+    constexpr double thinnest = 1e-5;  // relative to the bin's length
     if (kind.radius < thinnest * known.bin.length)
       throw InputError({"", 0, "radius"}, fmt::format("{} m", kind.radius),
                        fmt::format("at least {:.4g} m, for a bin that is {} m long",
                                    thinnest * known.bin.length, known.bin.length));
     if (!radii.insert(kind.radius).second)
-      throw InputError({"", 0, "radius"}, fmt::format("{} m a second time", kind.radius),
-                       "kinds of tubes whose radii differ");
+      throw InputError({"", 0, "radius"}, fmt::format("{} m for two kinds", kind.radius),
+                       "a different radius for each kind");
   }
 }
 

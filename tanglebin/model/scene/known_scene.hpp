@@ -8,27 +8,26 @@
 
 namespace tanglebin {
 
-/// What is known of each tube of a kind.
+/// What is known about a kind of tube.
 struct TubeKind {
   double radius = 0.0125;                ///< m
   SegmentTree segments = {{1, 2, 0.5}};  ///< one for a chain, several for a tree
 
-  /// m, along its centre line, branches included.
+  /// Length of the centre line with all branches, m.
   double length() const { return total_length(segments); }
-  /// Whether it is a tree.
+  /// True for a tree.
   bool branches() const { return segments.size() > 1; }
 };
 
-/// What is known of a scene before its cloud is looked at.
+/// What is known about a scene in advance.
 struct KnownScene {
   Bin bin;
-  Camera camera;                                           ///< that took the cloud
-  std::vector<TubeKind> kinds = std::vector<TubeKind>(1);  ///< of tubes, told apart by their radii
+  Camera camera;                                           ///< the camera that took the cloud
+  std::vector<TubeKind> kinds = std::vector<TubeKind>(1);  ///< no two with the same radius
 };
 
-/// Throws InputError naming the field of a scene that is none: what bin and camera refuse, no kind, a radius
-/// that is not a finite positive number, segments that are no tree, a radius of two kinds or too small for
-/// the bin.
+/// Throws InputError naming the invalid field: bin or camera; no kinds; a radius that is not a finite
+/// positive number, is too small for the bin or belongs to two kinds; segments that do not form a tree.
 void validate(const KnownScene& known);
 
 }  // namespace tanglebin

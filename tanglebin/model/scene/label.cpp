@@ -8,7 +8,7 @@
 namespace tanglebin {
 namespace {
 
-/// A piece of a tube's surface, and a box around all points that are near to it.
+/// A piece of a tube's surface, with a box around all points near it.
 struct Claim {
   std::int32_t label;
   Capsule capsule;

@@ -10,14 +10,14 @@
 
 namespace tanglebin {
 
-/// For each of the points (indices into the cloud) the id of the tube whose cylinder or joint is nearest, or
-/// null_label where none is near enough.
+/// For each point (an index into the cloud): the id of the tube with the nearest cylinder or joint, or
+/// null_label if none is near enough.
 std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::vector<std::size_t>& points,
                                            const std::vector<Tube>& tubes, const LabelSettings& settings);
 
-/// A label for each point of the cloud: the bin's for what the crop took away (`cropped` is what it left),
-/// null for what has no position, and of the others the one that it has in `claimed` (null where it has
-/// none), or else that of the nearest surface.
+/// A label for each point of the cloud: bin_label if the crop removed the point, null_label if it has no
+/// position. Any other point gets its label in `claimed` or, if that is null, the label of the nearest
+/// surface. `cropped` lists the points that the crop kept.
 std::vector<std::int32_t> label_points(const PointCloud& cloud, const std::vector<std::size_t>& cropped,
                                        const std::vector<std::int32_t>& claimed,
                                        const std::vector<Tube>& tubes, const LabelSettings& settings);

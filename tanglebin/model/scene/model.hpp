@@ -9,21 +9,20 @@
 
 namespace tanglebin {
 
-/// What a step of a method left, and how long it took.
+/// The outcome of one step of a method.
 struct Step {
   std::string name;   ///< "filter", "segment", …
   double seconds;     ///< wall clock
-  std::size_t count;  ///< how many things it left
-  std::string of;     ///< what these are: "points", "clusters", …
+  std::size_t count;  ///< number of items the step produced
+  std::string of;     ///< what the items are: "points", "clusters", …
 };
 
-/// Tubes found in a cloud.
+/// The tubes found in a cloud.
 struct Model {
-  std::vector<Tube> tubes;            ///< ids 1, 2, …, of mass 0 (not known)
-  std::vector<std::int32_t> labels;   ///< a tube's id, bin_label or null_label for each point of the cloud
-  std::vector<std::size_t> filtered;  ///< the points that the method's filter left, ascending; Section 5
-                                      ///< scores their labels
-  std::vector<Step> steps;            ///< in their order
+  std::vector<Tube> tubes;            ///< ids 1, 2, …; mass 0 (unknown)
+  std::vector<std::int32_t> labels;   ///< for each point of the cloud: a tube's id, bin_label or null_label
+  std::vector<std::size_t> filtered;  ///< points that the filter kept, ascending; Section 5 scores these
+  std::vector<Step> steps;            ///< in the order in which they ran
 };
 
 }  // namespace tanglebin

@@ -9,10 +9,10 @@
 namespace tanglebin {
 namespace {
 
-// Floats that readers of a run may read behind its last point.
+// Number of floats that readers of a run may read past its last point.
 constexpr std::size_t read_behind = 3;
 
-/// A point by its index, and where it belongs.
+/// A point's index and pixel.
 struct Seen {
   PixelPosition pixel;
   std::uint32_t index;

@@ -9,25 +9,25 @@
 
 namespace tanglebin {
 
-/// Points sorted by the pixels of the camera that saw them: what is beside a point on a surface is around its
-/// pixel, whatever the order and density of the cloud.
+/// Points sorted by the pixel of the camera that saw them. Neighbours on a surface are found in nearby
+/// pixels, whatever the order and density of the cloud.
 class PixelGrid {
 public:
-  /// Points in metres, world frame. Those that do not project into the image are left out.
+  /// Takes points in metres, world frame. Points that do not project into the image are left out.
   PixelGrid(const std::vector<Eigen::Vector3f>& points, const Camera& camera);
 
-  /// Points in metres, pixel after pixel and row after row: the first is at x[0], y[0], z[0]. A few more of
-  /// each coordinate may be read behind the last one, which mean nothing.
+  /// Consecutive points of one row, in metres; the first is (x[0], y[0], z[0]). Readers may read a few values
+  /// past the last point; these are meaningless.
   struct Run {
     const float* x;
     const float* y;
     const float* z;
     int size;
-    std::size_t first;  ///< the number of the first in the grid
+    std::size_t first;  ///< index of the first point in the grid
   };
 
-  /// The points of the grid, pixel after pixel and row after row: place, pixel, and index into the points
-  /// that the grid was made of.
+  /// The points in row-major pixel order: position, pixel, and index into the points passed to the
+  /// constructor.
   std::size_t size() const { return indices_.size(); }
   Eigen::Vector3f point(std::size_t item) const { return {x_[item], y_[item], z_[item]}; }
   const std::vector<PixelPosition>& pixels() const { return pixels_; }
@@ -35,17 +35,17 @@ public:
 
   const Camera& camera() const { return camera_; }
 
-  /// The points in columns first … last of a row; columns and rows may be beyond the image.
+  /// The points in columns first … last of a row. Columns and rows may lie outside the image.
   Run run(int row, int first, int last) const;
 
-  /// How many pixels wide a length (m) appears at a point.
+  /// The size in pixels of a length (m) at a point.
   double pixels_across(double length, const Eigen::Vector3f& point) const;
 
 private:
   std::size_t position_of(const PixelPosition& pixel) const;
 
   Camera camera_;
-  int left_ = 0;  // the part of the image that has points
+  int left_ = 0;  // the part of the image that contains points
   int top_ = 0;
   int width_ = 0;
   int height_ = 0;
@@ -54,7 +54,7 @@ private:
   std::vector<float> z_;
   std::vector<std::uint32_t> indices_;
   std::vector<PixelPosition> pixels_;
-  std::vector<std::uint32_t> starts_;  // where each pixel's points begin; at last the number of points
+  std::vector<std::uint32_t> starts_;  // first point of each pixel; last entry: the number of points
 };
 
 }  // namespace tanglebin

@@ -17,12 +17,12 @@
 namespace tanglebin {
 namespace {
 
-// misfit() takes time that doubles with each.
+// The time that misfit() takes doubles with each.
 constexpr int most_at_a_node = 12;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A node, and the neighbour that one comes from.
+/// A node, with the neighbour through which it was reached.
 struct Arrival {
   int at;
   int from;
@@ -59,7 +59,7 @@ public:
 
   const std::map<int, Branches>& nodes() const { return branches_; }
 
-  /// Those of a node but the one that leads back.
+  /// The branches of a node, except the one that leads back.
   Branches onward(const Arrival& node) const {
     Branches result;
     std::ranges::copy_if(branches_.at(node.at), std::back_inserter(result),
@@ -67,14 +67,14 @@ public:
     return result;
   }
 
-  /// m, of a branch and all beyond it.
+  /// The length of a branch and everything beyond it, m.
   double length(int from, const Branch& branch) const {
     double sum = branch.length;
     for (const Branch& next : onward({branch.to, from})) sum += length(branch.to, next);
     return sum;
   }
 
-  /// m, from a node to the farthest end along a branch.
+  /// The distance from a node to the farthest end along a branch, m.
   double reach(int from, const Branch& branch) const {
     double farthest = 0;
     for (const Branch& next : onward({branch.to, from}))
@@ -82,7 +82,7 @@ public:
     return branch.length + farthest;
   }
 
-  /// m, from one end to the farthest other.
+  /// The longest distance between two ends, m.
   double longest_path() const {
     double longest = 0;
     for (const auto& [node, branches] : branches_) {
@@ -95,7 +95,7 @@ private:
   std::map<int, Branches> branches_;
 };
 
-/// Lays what is seen of a tree on the known one, each way, and gives the misfit of the best.
+/// Lays the visible part of a tree on the known tree in every way, and returns the least misfit.
 class Overlay {
 public:
   Overlay(const SegmentTree& seen, const SegmentTree& known)
@@ -113,18 +113,19 @@ public:
   }
 
 private:
-  // Where only the longest path is seen of the known tree, on its longest one.
+  // If only a path is visible: lays it on the known tree's longest path.
   double of_path() const {
     const double path = seen_.longest_path();
     return std::max(0.0, path - known_.longest_path()) + seen_length_ - path;
   }
 
-  // The node is the junction: each of its branches goes a direction of its own, or is none of the known tree.
+  // The node is this junction. Each of its branches takes a different direction, or is not part of the known
+  // tree.
   double of_branches(const Arrival& node, const Arrival& junction) {
     const auto known = of_branches_.find({node, junction});
     if (known != of_branches_.end()) return known->second;
     const Branches directions = known_.onward(junction);
-    // The least misfit of the branches so far, by which directions they go: a bit for each.
+    // The least misfit of the branches so far, indexed by the set of directions that they take, one bit each.
     using Sums = boost::container::small_vector<double, 8>;
     const std::size_t subsets = std::size_t{1} << directions.size();
     Sums least(subsets, infinity);
@@ -146,8 +147,8 @@ private:
     return of_branches_[{node, junction}] = std::ranges::min(least);
   }
 
-  // A branch that goes a direction from the junction, after `way` m on which others left that are none of
-  // the known tree.
+  // The branch takes this direction from the junction, after `way` m on which branches left that the known
+  // tree does not have.
   double of_branch(int node, const Branch& branch, double way, int junction, const Branch& direction) {
     way += branch.length;
     const Arrival next{branch.to, node};
@@ -164,7 +165,7 @@ private:
     return best;
   }
 
-  // The node is one of the junctions in that direction, `way` m from this one.
+  // The node is one of the junctions in that direction, `way` m away.
   double of_junction(const Arrival& node, double way, int junction, const Branch& direction) {
     const Arrival next{direction.to, junction};
     const Branches directions = known_.onward(next);
@@ -193,9 +194,9 @@ void validate(const SegmentTree& tree, const std::string& field) {
     expect(std::isfinite(length) && length > 0, fmt::format("{} m from node {} to {}", length, from, to),
            "a positive number");
     expect(segments_at.contains(from), fmt::format("a segment from node {}", from),
-           "one from a node of an earlier segment");
+           "one that starts at a node of an earlier segment");
     expect(!segments_at.contains(to), fmt::format("a segment to node {}, which closes a loop", to),
-           "one to a new node");
+           "one that ends at a new node");
     segments_at[to] = 1;
     expect(++segments_at[from] <= most_at_a_node, fmt::format("more segments at node {}", from),
            fmt::format("at most {}", most_at_a_node));

@@ -5,30 +5,31 @@
 
 namespace tanglebin {
 
-/// A stretch of a tube's centre line between two of its named nodes: ends and junctions.
+/// The part of a tube's centre line between two named nodes (ends or junctions).
 struct TreeSegment {
   int from;
   int to;
   double length;  ///< m
 };
 
-/// A tube's centre line by the lengths of its segments alone: one for a chain, more for a tree.
+/// A tube's centre line, reduced to the lengths of its segments: one for a chain, several for a tree.
 using SegmentTree = std::vector<TreeSegment>;
 
-/// Throws InputError naming `field` for no segment, a length that is not a finite positive number, more than
-/// twelve segments at a node, and for a segment that does not start at a node of an earlier one, or ends at
-/// one: then it is no tree.
+/// Throws InputError naming `field` if the segments do not form a tree in which every segment but the first
+/// starts at a node of an earlier one and ends at a new node. Also if there is no segment, a length is not a
+/// finite positive number, or more than twelve segments meet at a node.
 void validate(const SegmentTree& tree, const std::string& field);
 
-/// m, of all segments together.
+/// The length of all segments together, m.
 double total_length(const SegmentTree& tree);
 
-/// Nodes at which one segment alone ends.
+/// The number of nodes with only one segment.
 int count_ends(const SegmentTree& tree);
 
-/// How badly what is seen of a tree fits the known one, m: the least sum, over all ways to lay the one on the
-/// other, of how much its segments between junctions are too short or too long, those to an end, beyond which
-/// more may be hidden, too long, and the length of branches that the known tree has not.
+/// How badly the visible part of a tree fits the known one, m. The minimum, over all ways to lay one on the
+/// other, of this sum: by how much segments between junctions are too short or too long; by how much segments
+/// to an end are too long (more of them may be hidden); and the length of branches that the known tree does
+/// not have.
 double misfit(const SegmentTree& seen, const SegmentTree& known);
 
 }  // namespace tanglebin

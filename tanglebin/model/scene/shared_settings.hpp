@@ -1,17 +1,17 @@
 #pragma once
 
-// Settings of the steps that both methods have in common.
+// Settings of the steps that both methods share.
 namespace tanglebin {
 
-/// Filter: which points are modelled.
+/// Filter: selects the points to model.
 struct FilterSettings {
-  double margin = 0.0005;  ///< m, a point nearer than this to the bin's walls or floor is the bin's
-  double overhang = 0.3;   ///< m, how far beyond the bin, to the sides and upwards, points are kept
+  double margin = 0.0005;  ///< m; a point nearer than this to a wall or the floor belongs to the bin
+  double overhang = 0.3;   ///< m; points farther than this outside the bin, sideways or upwards, are dropped
 };
 
-/// Label: the points that no tube was modelled from.
+/// Label: assigns the points that no tube was modelled from.
 struct LabelSettings {
-  double distance_max = 0.006;  ///< m, from a point to the surface of the tube that it is given to
+  double distance_max = 0.006;  ///< m, from a point to the surface of its tube
 };
 
 }  // namespace tanglebin

@@ -11,7 +11,7 @@
 // Internal to the room.
 namespace tanglebin {
 
-/// Notes the steps as they end.
+/// Records each step and its duration as it ends.
 class StepClock {
 public:
   explicit StepClock(std::vector<Step>& steps) : steps_(steps) {}

@@ -38,8 +38,7 @@ TEST(EstimateRadius, IsWithinTwoPercentOfANoisyCloud) {
 
 TEST(EstimateRadius, OfAnEmptyBinOrAPlaneIsAnError) {
   EXPECT_EQ(test::complaint([] { estimated(test::scanned({})); }),
-            "radius: found too few points of a tube to estimate it from, expected a cloud that shows "
-            "some, or the radius itself");
+            "radius: the cloud shows too little of a tube to estimate it; give the radius");
   std::vector<Eigen::Vector3f> plane;
   for (int i = 0; i < 10000; ++i) {
     plane.emplace_back(0.002F * static_cast<float>(i % 100) - 0.1F,
