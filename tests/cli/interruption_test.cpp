@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -150,7 +152,8 @@ TEST_F(Interruption, OfTheProgramThatReadsTheEventsLeavesTheRunAlone) {
 TEST_F(Interruption, OfTheTerminalLeavesTheRunAlone) {
   int terminal = -1;
   int end = -1;
-  ASSERT_EQ(openpty(&terminal, &end, nullptr, nullptr, nullptr), 0);
+  if (openpty(&terminal, &end, nullptr, nullptr, nullptr) != 0)
+    GTEST_SKIP() << "no pseudo-terminal: " << std::strerror(errno);
   std::fflush(nullptr);
   const pid_t process = fork();
   if (process == 0) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "tests/support/complaint.hpp"
@@ -44,6 +46,12 @@ TEST(Parameters, AreAtTheirDefaultsAtFirstAndEachCanBeSet) {
     EXPECT_THAT(changed_parameters(settings), ElementsAre(Pair(name, testing::DoubleNear(other, 1e-5))))
         << name;
   }
+}
+
+TEST(Parameters, AreAllInTheManual) {
+  std::ifstream file(TANGLEBIN_SOURCE "/docs/algorithm.md");
+  const std::string manual{std::istreambuf_iterator<char>(file), {}};
+  for (const auto& [name, value] : parameters({})) EXPECT_THAT(manual, HasSubstr("`" + name + "`"));
 }
 
 TEST(Parameters, SayWhatTheyCannotTake) {

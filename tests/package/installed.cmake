@@ -21,6 +21,16 @@ endif()
 
 run(${work}/installed/bin/tanglebin --version)
 
+# A program that only models needs nothing of the simulation.
+run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/modelling -B ${work}/modelling -G ${GENERATOR}
+    -D CMAKE_PREFIX_PATH=${work}/installed -D CMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${work}/modelling)
+run(${work}/modelling/modelling)
+execute_process(COMMAND ldd ${work}/modelling/modelling OUTPUT_VARIABLE libraries COMMAND_ERROR_IS_FATAL ANY)
+if(libraries MATCHES "libode|libembree|libcrypto")
+  message(FATAL_ERROR "a program that models links the simulation:\n${libraries}")
+endif()
+
 # Each public header compiles by itself, with nothing but what is installed.
 set(headers ${work}/headers)
 file(GLOB_RECURSE installed RELATIVE ${work}/installed/include ${work}/installed/include/*.hpp)

@@ -105,23 +105,30 @@ void expect_a_sound_page(const json& page, std::size_t pictures, std::size_t ser
   EXPECT_THAT(headings, AllOf(SizeIs(7), Each(2)));
 }
 
-TEST(Browser, ShowsThePapersExperimentOnAPhone) {
+class Browser : public testing::Test {
+protected:
+  void SetUp() override {
+    if (std::system("command -v chromium >/dev/null") != 0) GTEST_SKIP() << "chromium is not installed";
+  }
+};
+
+TEST_F(Browser, ShowsThePapersExperimentOnAPhone) {
   expect_a_sound_page(measured_on_a_phone(synthetic_page({})), 6, 2);
 }
 
-TEST(Browser, ShowsSeveralMethodsAndSetsOnAPhone) {
+TEST_F(Browser, ShowsSeveralMethodsAndSetsOnAPhone) {
   const std::string page = synthetic_page(
       {.sets = {"A", "B", "a-set-of-a-long-name_and-longer"}, .cases = 2, .methods = {"paper", "axis"}});
   expect_a_sound_page(measured_on_a_phone(page), 12, 6);
 }
 
-TEST(Browser, ShowsASingleRun) {
+TEST_F(Browser, ShowsASingleRun) {
   const std::string page = synthetic_page({.sets = {"C"}, .tubes = {4}, .cases = 1, .ratios = {0.5}});
   expect_a_sound_page(measured_on_a_phone(page), 6, 1);
 }
 
 // The measurements above would tell.
-TEST(Browser, ABrokenPictureAndAnEmptyPlotAreSeen) {
+TEST_F(Browser, ABrokenPictureAndAnEmptyPlotAreSeen) {
   std::string page = synthetic_page({.sets = {"A"}, .tubes = {2, 3}, .cases = 1});
   const std::string png = "data:image/png;base64,iVBOR";
   ASSERT_NE(page.find(png), std::string::npos);
