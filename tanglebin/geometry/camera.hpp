@@ -21,6 +21,9 @@ struct Camera {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< camera frame → world frame
 };
 
+/// Are all members equal, bit for bit but for the sign of zeros?
+bool operator==(const Camera& camera, const Camera& other);
+
 /// A camera at `position` (m) that looks straight down, the image's x along the world's x, with square pixels
 /// and the principal point at the image's centre.
 Camera downward_camera(int width, int height, double focal_length_px, const Eigen::Vector3d& position);

@@ -31,6 +31,8 @@ struct SettleSettings {
   double proof_motion = 0.001;    ///< ... no node may be more than so many m from where it began
   double overlap_max = 0.0003;    ///< m, of a tube with another or with the bin
   double time_limit = 10.0;       ///< s, simulated, after which a heap is given up
+
+  bool operator==(const SettleSettings&) const = default;
 };
 
 /// A heap as it came out of the simulation.
