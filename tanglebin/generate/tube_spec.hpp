@@ -15,6 +15,8 @@ struct Segment {
   double cylinder_length_min = 0.02;  ///< m, the shortest cylinder
   double bend_min = 0.0;              ///< rad, least angle between consecutive cylinders
   double bend_max = 0.0;              ///< rad, greatest angle between consecutive cylinders, at most π
+
+  bool operator==(const Segment&) const = default;
 };
 
 /// What tubes are drawn from: every input of Algorithm 1 but their number. One segment makes the paper's
@@ -23,6 +25,8 @@ struct TubeSpec {
   double radius = 0.0125;  ///< m
   double mass = 0.5;       ///< kg
   std::vector<Segment> segments = std::vector<Segment>(1);
+
+  bool operator==(const TubeSpec&) const = default;
 };
 
 /// Throws InputError for a spec of which no tube can be made: names the field (`where`.radius, and for the
