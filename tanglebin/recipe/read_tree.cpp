@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
@@ -25,12 +26,14 @@ auto with_place(const std::string& file, std::size_t line, Call call) {
 }
 
 template <typename Struct, typename Value>
-void read_field(const TomlTable& table, const Field<Struct, Value>& field, Struct& values) {
+void read_field(const TomlTable& table, const Field<Struct, Value>& field,
+                std::type_identity_t<Struct>& values) {
   table.get(field.key, values.*field.member);
 }
 
 template <typename Struct>
-void read_field(const TomlTable& table, const Field<Struct, Edges>& field, Struct& values) {
+void read_field(const TomlTable& table, const Field<Struct, Edges>& field,
+                std::type_identity_t<Struct>& values) {
   if (!table.has(field.key)) return;
   std::string name;
   table.get(field.key, name);
@@ -40,7 +43,8 @@ void read_field(const TomlTable& table, const Field<Struct, Edges>& field, Struc
 }
 
 template <typename Struct>
-void read_field(const TomlTable& table, const AngleField<Struct>& field, Struct& values) {
+void read_field(const TomlTable& table, const AngleField<Struct>& field,
+                std::type_identity_t<Struct>& values) {
   if (!table.has(field.key)) return;
   double degrees = 0;
   table.get(field.key, degrees);
@@ -182,9 +186,9 @@ Struct read_settings(const TomlTable& table, const std::tuple<Fields...>& fields
   return settings;
 }
 
-Segment read_segment(const TomlTable& table) {
+SegmentSpec read_segment(const TomlTable& table) {
   table.require({"length", "bend_max_deg"});
-  Segment segment;
+  SegmentSpec segment;
   read_fields(table, segment_end_fields, segment);
   read_fields(table, segment_fields, segment);
   return segment;

@@ -112,11 +112,11 @@ inline constexpr std::tuple segment_end_fields{
 };
 inline constexpr std::tuple segment_fields{
     Field{"length", &Segment::length},
-    Field{"cylinders_min", &Segment::cylinders_min},
-    Field{"cylinders_max", &Segment::cylinders_max},
-    Field{"cylinder_length_min", &Segment::cylinder_length_min},
-    AngleField{"bend_min_deg", &Segment::bend_min},
-    AngleField{"bend_max_deg", &Segment::bend_max},
+    Field{"cylinders_min", &SegmentSpec::cylinders_min},
+    Field{"cylinders_max", &SegmentSpec::cylinders_max},
+    Field{"cylinder_length_min", &SegmentSpec::cylinder_length_min},
+    AngleField{"bend_min_deg", &SegmentSpec::bend_min},
+    AngleField{"bend_max_deg", &SegmentSpec::bend_max},
 };
 
 struct EdgesName {

@@ -51,7 +51,7 @@ void validate_numbers_of_tubes(const std::vector<int>& tubes, const std::string&
 }
 
 // The longest straight piece that can be drawn: one cylinder beside the shortest others.
-double longest_straight_piece(const Segment& segment) {
+double longest_straight_piece(const SegmentSpec& segment) {
   if (segment.bend_max == 0) return segment.length;
   return segment.length - (segment.cylinders_min - 1) * segment.cylinder_length_min;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -46,18 +47,21 @@ toml::array rows_of(const Eigen::Matrix3d& matrix) {
 }
 
 template <typename Struct, typename Value>
-void put_field(toml::table& table, const Field<Struct, Value>& field, const Struct& values) {
+void put_field(toml::table& table, const Field<Struct, Value>& field,
+               const std::type_identity_t<Struct>& values) {
   table.insert(field.key, values.*field.member);
 }
 
 template <typename Struct>
-void put_field(toml::table& table, const Field<Struct, Edges>& field, const Struct& values) {
+void put_field(toml::table& table, const Field<Struct, Edges>& field,
+               const std::type_identity_t<Struct>& values) {
   const auto edges = std::ranges::find(edges_names, values.*field.member, &EdgesName::edges);
   table.insert(field.key, edges->name);
 }
 
 template <typename Struct>
-void put_field(toml::table& table, const AngleField<Struct>& field, const Struct& values) {
+void put_field(toml::table& table, const AngleField<Struct>& field,
+               const std::type_identity_t<Struct>& values) {
   table.insert(field.key, degrees_from_radians(values.*field.member));
 }
 
@@ -99,7 +103,7 @@ toml::table tube_table(const TubeSpec& spec) {
     return table;
   }
   toml::array segments;
-  for (const Segment& segment : spec.segments) {
+  for (const SegmentSpec& segment : spec.segments) {
     toml::table inner = table_of(segment_end_fields, segment);
     put_fields(inner, segment_fields, segment);
     segments.push_back(std::move(inner));

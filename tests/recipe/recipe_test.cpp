@@ -157,7 +157,7 @@ TEST(Recipe, TakesCommentsInAnyLanguage) {
 TEST(Recipe, ReadsTreesOfSegments) {
   const Recipe recipe = read(tree);
 
-  const std::vector<Segment>& segments = recipe.sets.at(0).kinds.at(0).segments;
+  const std::vector<SegmentSpec>& segments = recipe.sets.at(0).kinds.at(0).segments;
   ASSERT_EQ(segments.size(), 2U);
   EXPECT_EQ(segments[1].from, 1);
   EXPECT_EQ(segments[1].to, 3);
@@ -255,7 +255,7 @@ TEST(Recipe, WritesEverySettingThatThereIs) {
       << "a setting has no line in settle_fields (recipe_fields.hpp)";
   EXPECT_EQ(keys(text, "output").size(), settings<OutputSettings>() - 1)
       << "properties have keys of their own";
-  EXPECT_EQ(keys(write(read(tree)), "[set.tube.segment]").size(), settings<Segment>());
+  EXPECT_EQ(keys(write(read(tree)), "[set.tube.segment]").size(), settings<SegmentSpec>());
   EXPECT_THAT(keys(text, "scanner"),
               ElementsAre("width", "height", "fx", "fy", "cx", "cy", "position", "rotation_matrix"));
   EXPECT_THAT(text, ::testing::Not(HasSubstr("preset =")));
@@ -403,7 +403,7 @@ TubeSpec any_kind() {
   spec.segments.clear();
   const int segments = *rc::gen::inRange(1, 5);
   for (int to = 2; to <= segments + 1; ++to) {
-    Segment segment;
+    SegmentSpec segment;
     segment.from = *rc::gen::inRange(1, to);
     segment.to = to;
     segment.length = any_real(0.1, 1);
@@ -491,7 +491,7 @@ void maybe_random_kind(Recipe& recipe, const std::string& path, const TubeSpec& 
   maybe_random(recipe, path + ".mass", kind.mass);
   for (std::size_t i = 0; i < kind.segments.size(); ++i) {
     if (*rc::gen::arbitrary<bool>()) continue;
-    const Segment& segment = kind.segments[i];
+    const SegmentSpec& segment = kind.segments[i];
     const std::string place = kind.segments.size() == 1 ? path : fmt::format("{}.segment[{}]", path, i);
     recipe.random.push_back(
         {place + ".cylinders_min",
