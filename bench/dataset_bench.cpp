@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/dataset/finished_cases.hpp"
+#include "tanglebin/dataset/catalogue.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
 
 namespace tanglebin {
@@ -75,7 +75,9 @@ void PaperDataset(benchmark::State& state) {
 
     StageTimes sum;
     double peak = 0;
-    for (const auto& [id, times] : finished_cases(directory).times) {
+    const Catalogue catalogue(directory);
+    for (const CaseId& id : catalogue.cases()) {
+      const TimesRecord times = catalogue.times(id).value();
       sum.generate += times.times.generate;
       sum.settle += times.times.settle;
       sum.scan += times.times.scan;

@@ -15,7 +15,6 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/catalogue.hpp"
-#include "tanglebin/dataset/finished_cases.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 
 namespace {
@@ -88,7 +87,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       << std::string(data + 1, data + size);
   // Each reads exactly these bytes, whatever the other files contain.
   in_one_line([&] { tanglebin::read_dataset_summary(directory); });
-  in_one_line([&] { tanglebin::finished_cases(directory); });
   in_one_line([&] { read_times_and_drawn_numbers(tanglebin::Catalogue(directory)); });
   in_one_line([&] { check_that_it_reads_back(tanglebin::Catalogue(directory), directory); });
   // Readers that skip damage can still write a dataset.

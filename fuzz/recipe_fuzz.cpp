@@ -1,5 +1,5 @@
-// Any input is either a recipe, which must survive writing and reading, or an InputError; and either a
-// setting from the command line or an InputError.
+// Any input is either a recipe, which must read back as the same value after writing, or an InputError; and
+// either a setting from the command line or an InputError.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,10 +13,14 @@
 
 namespace {
 
-std::string read_and_write(const std::string& text) {
+tanglebin::Recipe read(const std::string& text) {
   std::istringstream in(text);
-  const tanglebin::Recipe recipe = tanglebin::read_recipe(in, "fuzz");
+  tanglebin::Recipe recipe = tanglebin::read_recipe(in, "fuzz");
   if (tanglebin::cases(recipe).empty()) std::abort();
+  return recipe;
+}
+
+std::string write(const tanglebin::Recipe& recipe) {
   std::ostringstream out;
   tanglebin::write_recipe(out, recipe);
   return out.str();
@@ -41,9 +45,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(data, data + size);
   is_refused(
       [&] { tanglebin::scanner_with("paper", {"scanner." + text.substr(0, text.find('\n'))}, "fuzz"); });
-  std::string written;
-  if (is_refused([&] { written = read_and_write(text); })) return 0;
+  tanglebin::Recipe recipe;
+  if (is_refused([&] { recipe = read(text); })) return 0;
   // An exception from here on is a bug: the project cannot read what it writes.
-  if (read_and_write(written) != written) std::abort();
+  const std::string written = write(recipe);
+  const tanglebin::Recipe again = read(written);
+  if (again != recipe || difference(again, recipe) || write(again) != written) std::abort();
   return 0;
 }

@@ -15,11 +15,11 @@ struct CaseFile {
   std::string bytes;  ///< all of it
 };
 
-/// The paths of a case's files: those of case_files(), in its order.
+/// The paths of a case's files, in the order of case_files().
 std::vector<std::string> paths_of(const Recipe& recipe, const CaseId& id);
 
-/// The files of a case, those that recipe.output asks for (docs/formats.md), of each of the recipe's
-/// scanners; the recipe is the scene's, without random numbers.
+/// The files of a case that recipe.output asks for (docs/formats.md), for each scanner. The recipe must be
+/// resolved: without random numbers.
 std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const Scene& scene);
 
 }  // namespace tanglebin

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/dataset/finished_cases.hpp"
 #include "tanglebin/io/json_record.hpp"
 #include "tanglebin/io/read_file.hpp"
 #include "tanglebin/io/safe_file.hpp"
@@ -27,7 +26,11 @@ FailedCase failed_case(const std::string& json, const std::string& file, std::si
   return {id_of(value), value.seed("seed"), value.text("reason")};
 }
 
-/// Fetches lines from where they are.
+std::string journal_line(const CaseRecord& record, const TimesRecord& times) {
+  return to_json(record) + journal_separator + to_json(times);
+}
+
+/// Reads lines by their places.
 class Catalogue::Reader {
 public:
   explicit Reader(const std::vector<fs::path>& files) {
@@ -39,11 +42,11 @@ public:
     std::string line(place.size, '\0');
     auto& [file, in] = files_[place.file];
     if (!in) in = open_if_there(file);
-    if (!in) throw InputError({file.string(), place.line, ""}, "is no longer there");
+    if (!in) throw InputError({file.string(), place.line, ""}, "has been removed");
     in->seekg(static_cast<std::streamoff>(place.offset));
     in->read(line.data(), static_cast<std::streamsize>(line.size()));
     expect_read(*in, file);
-    if (!*in) throw InputError({file.string(), place.line, ""}, "is shorter than it was");
+    if (!*in) throw InputError({file.string(), place.line, ""}, "is shorter than before");
     return line;
   }
 
@@ -73,7 +76,7 @@ Catalogue::Catalogue(const fs::path& directory, Damage damage)
 
 Catalogue::Catalogue(const fs::path& directory, Damage damage, const std::vector<fs::path>& journals)
     : directory_(directory) {
-  // What is to be passed over is found out now; otherwise a line is read when it is needed.
+  // To pass over damaged lines, read them all now; otherwise a line is read when it is needed.
   const bool reads_all = damage == Damage::is_passed_over;
   const std::string manifest = (directory / manifest_name).string();
   read_lines(manifest, damage, [&](const std::string& line, const Place& place) {
@@ -122,13 +125,26 @@ std::vector<CaseId> Catalogue::cases() const {
 
 CaseRecord Catalogue::record(const CaseId& id) const {
   const Place& place = places_.at(id).record;
-  return case_record(Reader(files_).line(place), files_[place.file].string(), place.line);
+  CaseRecord record = case_record(Reader(files_).line(place), files_[place.file].string(), place.line);
+  // A run that goes on meanwhile may have replaced the file.
+  if (record.id != id)
+    throw InputError({files_[place.file].string(), place.line, ""}, name_of(record.id), name_of(id));
+  return record;
 }
 
 std::optional<TimesRecord> Catalogue::times(const CaseId& id) const {
   const Place& place = places_.at(id).times;
   if (place.size == 0) return std::nullopt;
   return times_record(Reader(files_).line(place), files_[place.file].string(), place.line);
+}
+
+void Catalogue::for_each_times_line(const std::vector<CaseId>& order,
+                                    const std::function<void(const std::string&)>& take) const {
+  Reader reader(files_);
+  for (const CaseId& id : order) {
+    const auto found = places_.find(id);
+    if (found != places_.end() && found->second.times.size > 0) take(reader.line(found->second.times));
+  }
 }
 
 void Catalogue::add(const FailedCase& failed) {

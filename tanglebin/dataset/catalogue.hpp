@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -10,57 +11,71 @@
 #include <vector>
 
 #include "tanglebin/dataset/dataset_summary.hpp"
+#include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/recipe/case_id.hpp"
 
 namespace tanglebin {
 
-/// A case that could not be made.
+/// A case that was given up.
 struct FailedCase {
   CaseId id;
   std::uint64_t seed = 0;  ///< of its first attempt
   std::string reason;
 };
 
-/// A line of failed.jsonl, without the line's end, and the inverse, which throws InputError.
+/// A line of failed.jsonl, without its end, and the inverse, which throws InputError.
 std::string to_json(const FailedCase& failed);
 FailedCase failed_case(const std::string& json, const std::string& file, std::size_t line);
 
-/// What manifest, times, failures and journals of a dataset's directory say of its cases. It has in memory
-/// only where the lines are, so that it is small whatever the dataset is.
+/// Between a case's record and its times in a line of the journal; JSON escapes a tab inside.
+inline constexpr char journal_separator = '\t';
+
+/// The journal's line for a finished case.
+std::string journal_line(const CaseRecord& record, const TimesRecord& times);
+
+/// The cases that are listed in the manifest, times, failures and journals of a dataset's directory. It keeps
+/// only the places of their lines in memory, so it is small even for a large dataset.
 class Catalogue {
 public:
-  /// What to do with a line of manifest, times or failures that cannot be read.
+  /// What to do with a damaged line of manifest, times or failures.
   enum class Damage { is_error, is_passed_over };
 
-  /// Reads them, all journals or these only. A last line that was cut off is passed over, and so is what
-  /// cannot be read in a journal. Throws InputError for any other line that is not about a case, unless
-  /// damage is passed over, and for a file that cannot be read.
+  /// Reads them, with all journals or only these. Skips a last line without an end and damaged lines of
+  /// journals. Throws InputError for any other line that does not begin with a case, unless damage is passed
+  /// over, and for a file that cannot be read.
   explicit Catalogue(const std::filesystem::path& directory, Damage damage = Damage::is_error);
   Catalogue(const std::filesystem::path& directory, Damage damage,
             const std::vector<std::filesystem::path>& journals);
 
+  /// Is the case finished?
   bool has(const CaseId& id) const { return places_.contains(id); }
 
-  /// Cases that failed and are not there.
+  /// Cases that failed and have not been made since.
   const std::map<CaseId, FailedCase>& failed() const { return failed_; }
 
-  /// The cases that are there.
+  /// The finished cases.
   std::vector<CaseId> cases() const;
 
-  /// What is known of a case that is there. Each call opens the file, so that forked processes may call it.
+  /// The record of a finished case, and its times if there are any. Throws InputError for a line that is
+  /// damaged or has changed. Each call opens the file, so forked processes may call it.
   CaseRecord record(const CaseId& id) const;
   std::optional<TimesRecord> times(const CaseId& id) const;
+
+  /// Calls `take` with each finished case's line of times.jsonl, if any, without its end, in the order of
+  /// `order`.
+  void for_each_times_line(const std::vector<CaseId>& order,
+                           const std::function<void(const std::string&)>& take) const;
 
   /// Forgets a case.
   void drop(const CaseId& id) { places_.erase(id); }
 
-  /// Adds a case that failed, where it is not there.
+  /// Adds a case that failed, unless it is finished.
   void add(const FailedCase& failed);
 
-  /// Writes manifest.jsonl, times.jsonl, failed.jsonl (where cases have failed) and dataset.json, the cases
-  /// in the order of `order`, others left out; `made_with` joins the versions that dataset.json has.
-  /// Unfinished files go to `staging`. All is on the disk when it returns. Throws InputError where a line
-  /// cannot be read or a file cannot be written.
+  /// Writes manifest.jsonl, times.jsonl, failed.jsonl (if cases have failed) and dataset.json, with the cases
+  /// of `order` in that order and no others. `made_with` is for dataset.json. Unfinished files go to
+  /// `staging`. Everything is on the disk when it returns. Throws InputError if a line cannot be read or a
+  /// file cannot be written.
   DatasetSummary write(const std::vector<CaseId>& order, const std::set<Versions>& made_with,
                        const std::filesystem::path& staging) const;
 

@@ -19,20 +19,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file of a case, whole as it was written, and its name for messages.
+/// A file of a case, checked against the manifest, and its name for messages.
 struct CheckedFile {
   std::string name;
   std::istringstream in;
 };
 
-CheckedFile open_checked(const Dataset& dataset, const CaseId& id, std::string_view kind,
+CheckedFile open_checked(const fs::path& directory, const CaseRecord& record, std::string_view kind,
                          std::string_view extension, std::string_view scanner = {}) {
-  const std::string path = file_of(id, kind, extension, scanner);
-  const std::vector<FileRecord>& files = dataset.finished.records.at(id).files;
-  const auto record = std::ranges::find(files, path, &FileRecord::path);
-  const fs::path file = dataset.directory / path;
-  if (record == files.end()) throw InputError({file.string(), 0, ""}, "not in the manifest");
-  return {file.string(), std::istringstream(checked_bytes(dataset.directory, *record))};
+  const std::string path = file_of(record.id, kind, extension, scanner);
+  const auto listed = std::ranges::find(record.files, path, &FileRecord::path);
+  const fs::path file = directory / path;
+  if (listed == record.files.end()) throw InputError({file.string(), 0, ""}, "not in the manifest");
+  return {file.string(), std::istringstream(checked_bytes(directory, *listed))};
 }
 
 }  // namespace
@@ -41,7 +40,7 @@ Dataset read_dataset(const fs::path& directory) {
   const fs::path file = directory / "recipe.toml";
   const std::string text = read_file(file);
   std::istringstream in(text);
-  return {directory, read_recipe(in, file.string()), sha256(text), finished_cases(directory)};
+  return {directory, read_recipe(in, file.string()), sha256(text), Catalogue(directory)};
 }
 
 std::string checked_bytes(const fs::path& directory, const FileRecord& file) {
@@ -52,7 +51,7 @@ std::string checked_bytes(const fs::path& directory, const FileRecord& file) {
                      fmt::format("{}, as the manifest says", file.bytes));
   };
   expect_below(directory, path);
-  // A file that is much larger than it is to be is not read, nor is a pipe waited for.
+  // So that a much larger file is not read, nor a pipe waited for.
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw InputError({path.string(), 0, ""}, "cannot be opened: " + error.message());
@@ -67,17 +66,18 @@ std::string checked_bytes(const fs::path& directory, const FileRecord& file) {
 
 std::vector<CaseId> cases(const Dataset& dataset) {
   std::vector<CaseId> there = cases(dataset.recipe);
-  std::erase_if(there, [&](const CaseId& id) { return !dataset.finished.records.contains(id); });
+  std::erase_if(there, [&](const CaseId& id) { return !dataset.catalogue.has(id); });
   return there;
 }
 
 Recipe recipe_of(const Dataset& dataset, const CaseId& id) {
-  return resolve(dataset.recipe, dataset.finished.records.at(id).drawn);
+  return resolve(dataset.recipe, dataset.catalogue.record(id).drawn);
 }
 
 CaseData read_case(const Dataset& dataset, const CaseId& id) {
-  CheckedFile cloud = open_checked(dataset, id, "plys", "ply", dataset.recipe.scanner_name);
-  CheckedFile tubes = open_checked(dataset, id, "tube_configurations", "txt");
+  const CaseRecord record = dataset.catalogue.record(id);
+  CheckedFile cloud = open_checked(dataset.directory, record, "plys", "ply", dataset.recipe.scanner_name);
+  CheckedFile tubes = open_checked(dataset.directory, record, "tube_configurations", "txt");
   return {cloud.name, read_ply(cloud.in, cloud.name), read_configuration(tubes.in, tubes.name)};
 }
 

@@ -5,33 +5,33 @@
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
-#include "tanglebin/dataset/finished_cases.hpp"
+#include "tanglebin/dataset/catalogue.hpp"
 #include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 
 namespace tanglebin {
 
-/// A dataset on disk, as generate_dataset() left it.
+/// A dataset on disk.
 struct Dataset {
   std::filesystem::path directory;
   Recipe recipe;
   std::string recipe_sha256;  ///< of recipe.toml
-  FinishedCases finished;
+  Catalogue catalogue;
 };
 
-/// Reads recipe, manifest and times. Throws InputError where the directory has no recipe or what it has
-/// cannot be read.
+/// Reads the recipe and where each case is listed. Throws InputError if the directory has no recipe, or if a
+/// file cannot be read. A damaged record is an error when its case is read.
 Dataset read_dataset(const std::filesystem::path& directory);
 
-/// The cases that are there, in the recipe's order.
+/// The finished cases, in the recipe's order.
 std::vector<CaseId> cases(const Dataset& dataset);
 
-/// The bytes of a dataset's file. Throws InputError naming the file where it is missing or not the one that
-/// the manifest has the size and the checksum of.
+/// The bytes of a dataset's file. Throws InputError naming the file if it is missing or has another size or
+/// checksum than in the manifest.
 std::string checked_bytes(const std::filesystem::path& directory, const FileRecord& file);
 
-/// The recipe of a case that is there: the dataset's, with the numbers that were drawn for the case as the
-/// manifest has them.
+/// The recipe of a finished case: the dataset's with the numbers that were drawn for the case, from the
+/// manifest.
 Recipe recipe_of(const Dataset& dataset, const CaseId& id);
 
 /// A case read back.
@@ -41,8 +41,8 @@ struct CaseData {
   std::vector<Tube> tubes;
 };
 
-/// Reads the cloud and the configuration of a case that is there. Throws InputError naming the file that is
-/// missing, is not the one that the manifest has the checksum of, or cannot be read.
+/// Reads the cloud and the configuration of a finished case. Throws InputError naming the file that is
+/// missing, has another checksum than in the manifest, or cannot be read.
 CaseData read_case(const Dataset& dataset, const CaseId& id);
 
 }  // namespace tanglebin

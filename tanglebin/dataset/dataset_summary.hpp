@@ -12,14 +12,14 @@
 
 namespace tanglebin {
 
-/// What dataset.json says: a dataset in a few numbers, and what it was made with.
+/// The content of dataset.json: a dataset in a few numbers, and what it was made with.
 struct DatasetSummary {
   std::size_t cases = 0;           ///< in the manifest
   std::size_t recipe_cases = 0;    ///< that the recipe has
   std::size_t failed = 0;          ///< in failed.jsonl
   std::size_t files = 0;           ///< in the manifest
   std::string digest{};            ///< Digest of the manifest's cases
-  std::set<Versions> made_with{};  ///< more than one where several machines or versions made it
+  std::set<Versions> made_with{};  ///< more than one if several machines or versions made it
 
   bool is_complete() const { return cases == recipe_cases; }
 };
@@ -40,7 +40,7 @@ private:
 /// The text of dataset.json.
 std::string to_json(const DatasetSummary& summary);
 
-/// dataset.json of a directory; nullopt where there is none. Throws InputError where it cannot be read.
+/// dataset.json of a directory; nullopt if there is none. Throws InputError if it cannot be read.
 std::optional<DatasetSummary> read_dataset_summary(const std::filesystem::path& directory);
 
 }  // namespace tanglebin

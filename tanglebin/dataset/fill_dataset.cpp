@@ -1,15 +1,11 @@
 #include "tanglebin/dataset/fill_dataset.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/random.hpp"
-#include "tanglebin/dataset/finished_cases.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/runs/file_lock.hpp"
@@ -27,7 +23,7 @@ std::string text_of(const Recipe& recipe) {
   return out.str();
 }
 
-// The directory's recipe is written once; another one is not let in.
+// Writes the directory's recipe, or expects it to be the same.
 void claim(const fs::path& directory, const Recipe& recipe, const fs::path& staging) {
   const fs::path file = directory / "recipe.toml";
   if (fs::exists(file)) {
@@ -79,12 +75,12 @@ private:
     summary_.dataset = is_folded ? *known : fold(abandoned, to_replace());
   }
 
-  // What this run adds to those that the dataset was made with.
+  // The versions that this run adds to the dataset.
   std::set<Versions> made_with() const {
     return missing_.empty() ? std::set<Versions>{} : request_.made_with;
   }
 
-  // A repair writes a damaged one anew: all but the versions follows from the manifest.
+  // A repair writes a damaged one again: everything but the versions follows from the manifest.
   std::optional<DatasetSummary> known_summary() const {
     try {
       return read_dataset_summary(request_.directory);
@@ -114,7 +110,7 @@ private:
     summary_.was_interrupted = !run_in_workers(request_.jobs, missing_.size(), make_case, workers);
   }
 
-  // Names first, then the lines that say that they are there.
+  // First waits for the files' names, then writes the journal's lines.
   void record(const std::vector<TaskResult>& results) {
     std::vector<std::string> lines;
     std::vector<CaseEvent> events;
@@ -137,8 +133,8 @@ private:
     }
   }
 
-  // The folder that has the file's name, and, the first time, those that have the folders' names: another
-  // worker may have made them and not yet have waited for the disk.
+  // Adds the file's folder and, the first time, the folders above it: another worker may have made them and
+  // not yet waited for the disk.
   void add_folders(const std::string& file, std::set<fs::path>& folders) {
     fs::path folder = fs::path(file).parent_path();
     folders.insert(folder);
@@ -158,7 +154,7 @@ private:
     observer_.ended({id, 0, 0, failure.reason}, summary_.progress);
   }
 
-  // What ended the run is the error to tell of; the journal keeps what cannot be written now.
+  // The error that ended the run is the one to report; the journal keeps what cannot be written now.
   void end_after_an_error() {
     try {
       fold_at_the_end();
@@ -172,8 +168,8 @@ private:
     return fold(abandoned_journals(request_.directory), {});
   }
 
-  // Moves what this run and runs that were cut off have in their journals to the manifest. The caller has the
-  // directory's lock.
+  // Moves the journals of this run and of interrupted runs to the manifest. The caller has the directory's
+  // lock.
   DatasetSummary fold(const std::vector<Journal>& abandoned, const std::vector<CaseId>& to_drop) {
     std::vector<fs::path> journals{journal_.file()};
     for (const Journal& journal : abandoned) journals.push_back(journal.file());
@@ -203,20 +199,8 @@ private:
 }  // namespace
 
 void expect_same_recipe(const fs::path& file, const Recipe& wanted) {
-  std::ifstream found_stream(file, std::ios::binary);
-  if (!found_stream) throw InputError({file.string(), 0, ""}, "cannot be opened");
-  std::istringstream wanted_stream(text_of(wanted));
-  std::string found_line;
-  std::string wanted_line;
-  for (std::size_t number = 1;; ++number) {
-    const bool more_found = static_cast<bool>(std::getline(found_stream, found_line));
-    const bool more_wanted = static_cast<bool>(std::getline(wanted_stream, wanted_line));
-    if (!more_found && !more_wanted) return;
-    if (more_found && more_wanted && found_line == wanted_line) continue;
-    throw InputError({file.string(), number, ""},
-                     fmt::format("the directory belongs to another recipe: it has \"{}\", this one \"{}\"",
-                                 more_found ? found_line : "", more_wanted ? wanted_line : ""));
-  }
+  if (const auto found = difference(read_recipe(file), wanted))
+    throw InputError({file.string(), 0, ""}, "the directory belongs to another recipe: " + *found);
 }
 
 CaseWriter::CaseWriter(fs::path directory, fs::path staging)

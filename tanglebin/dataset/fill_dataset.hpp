@@ -17,17 +17,16 @@
 
 namespace tanglebin {
 
-/// Throws InputError naming the first line in which the recipe in `file` is another one than `wanted`, as
-/// write_recipe() writes it.
+/// Throws InputError naming the first setting in which the recipe in `file` differs from `wanted`.
 void expect_same_recipe(const std::filesystem::path& file, const Recipe& wanted);
 
-/// Puts files of a case into a dataset's directory.
+/// Writes a case's files into a dataset's directory.
 class CaseWriter {
 public:
   CaseWriter(std::filesystem::path directory, std::filesystem::path staging);
 
-  /// Writes the file, whole or not at all; `path` is relative to the dataset's directory. Returns what the
-  /// manifest is to have of it. Throws InputError where it cannot be written.
+  /// Writes the file, whole or not at all; `path` is relative to the dataset's directory. Returns its entry
+  /// in the manifest. Throws InputError if it cannot be written.
   FileRecord write(const std::string& path, std::string_view bytes) const;
 
 private:
@@ -41,41 +40,39 @@ struct MadeCase {
   TimesRecord times;
 };
 
-/// Makes a case, in a worker process. May throw as a Task does (workers.hpp).
+/// Makes a case in a worker process. May throw as a Task does (workers.hpp).
 using MakeCase = std::function<MadeCase(const CaseId& id, const CaseWriter& writer)>;
 
-/// What is to be in a dataset's directory when a run ends.
+/// What a run is to put into a dataset's directory.
 struct FillRequest {
   Recipe recipe;
   std::vector<CaseId> wanted;
   std::filesystem::path directory;
   std::string name{};                ///< of the run: empty, or that of its shard
   int jobs = 1;                      ///< worker processes
-  std::set<Versions> made_with{};    ///< what dataset.json is to have where cases are made
-  std::vector<FailedCase> failed{};  ///< cases that are known to have failed elsewhere
-  /// Where it is set: cases to make again though they are there, and what cannot be read of the dataset is
-  /// dropped.
+  std::set<Versions> made_with{};    ///< for dataset.json, if any cases are made
+  std::vector<FailedCase> failed{};  ///< cases known to have failed elsewhere
+  /// If set: finished cases to make again; damaged lines of the dataset are dropped.
   std::optional<std::vector<CaseId>> repair{};
 };
 
-/// What a run came to.
+/// The outcome of a run.
 struct FillSummary {
   RunProgress progress;
   std::vector<FailedCase> failed;  ///< of the cases asked for
-  DatasetSummary dataset;          ///< all that the directory has now
+  DatasetSummary dataset;          ///< of the whole directory
   bool was_interrupted = false;    ///< by SIGINT or SIGTERM, even if no case was left to make
 
   bool is_complete() const { return progress.found + progress.made == progress.wanted; }
   bool was_stopped() const { return progress.found + progress.made + progress.failed < progress.wanted; }
 };
 
-/// Makes the wanted cases that are missing in the directory, in worker processes, and with them recipe.toml,
-/// manifest.jsonl, times.jsonl, failed.jsonl and dataset.json (docs/formats.md). A case that is made is on
-/// the disk with its line in the run's journal before the observer hears of it, so whatever ends the run, the
-/// next one goes on from there. Runs of different names may fill a directory at the same time. Returns early,
-/// with what is done, on SIGINT and SIGTERM. Throws InputError where the directory belongs to another recipe
-/// or to a run of the same name that is under way, where a file cannot be read or written, and where making a
-/// case throws it.
+/// Makes the wanted cases that are missing in the directory, in worker processes, and writes recipe.toml,
+/// manifest.jsonl, times.jsonl, failed.jsonl and dataset.json (docs/formats.md). Before the observer hears of
+/// a case, its files and its line in the run's journal are on the disk: whatever ends the run, the next one
+/// goes on from there. Runs of different names may fill a directory at the same time. Returns early on SIGINT
+/// and SIGTERM. Throws InputError if the directory belongs to another recipe or to a running run of the same
+/// name, if a file cannot be read or written, and if making a case throws it.
 FillSummary fill_dataset(const FillRequest& request, const MakeCase& make, const RunObserver& observer);
 
 }  // namespace tanglebin

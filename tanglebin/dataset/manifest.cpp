@@ -11,7 +11,7 @@
 namespace tanglebin {
 namespace {
 
-// A manifest from elsewhere must not make a program read or write outside of the dataset's directory.
+// A manifest from elsewhere must not make the program read or write outside of the dataset's directory.
 std::string path_from(const JsonRecord& entry) {
   std::string text = entry.text("path");
   const std::filesystem::path path(text);
@@ -25,7 +25,7 @@ std::string path_from(const JsonRecord& entry) {
   return text;
 }
 
-// Members in another order, or one of them twice: then the line's beginning does not say what the line says.
+// If members are in another order or there twice, the line's beginning does not name its case.
 void expect_id_first(const CaseId& id, const std::string& json, const std::string& file, std::size_t line) {
   if (id_of_line(json, file, line) != id) {
     throw InputError({file, line, ""}, excerpt(json), "a line that begins with its set, tubes and case");

@@ -11,21 +11,26 @@
 
 namespace tanglebin {
 
-/// A file as the manifest lists it.
+// The files of a dataset's directory that list its cases (docs/formats.md).
+inline constexpr const char* manifest_name = "manifest.jsonl";
+inline constexpr const char* times_name = "times.jsonl";
+inline constexpr const char* failed_name = "failed.jsonl";
+
+/// A file in the manifest.
 struct FileRecord {
   std::string path;  ///< relative to the dataset's directory
   std::size_t bytes;
   std::string sha256;
 };
 
-/// What the manifest says of a scanner that has a name.
+/// A scanner with a name in the manifest.
 struct ScannerRecord {
   std::string name;
   std::size_t points;  ///< in its cloud
 };
 
-/// What the manifest says of a case: only what follows from the recipe, so that the manifest of a recipe is
-/// always the same, byte for byte. How long things took stands elsewhere (TimesRecord).
+/// A case in the manifest: only what follows from the recipe, so a recipe's manifest is always the same, byte
+/// for byte. Durations are elsewhere (TimesRecord).
 struct CaseRecord {
   CaseId id;
   std::uint64_t seed;
@@ -34,22 +39,22 @@ struct CaseRecord {
   std::size_t points;      ///< in the cloud, of the first scanner
   std::vector<Rejection> rejections;
   std::vector<FileRecord> files;
-  std::vector<ScannerRecord> scanners{};  ///< where the recipe's have names
-  std::vector<DrawnNumber> drawn{};       ///< where the recipe has numbers that are drawn
+  std::vector<ScannerRecord> scanners{};  ///< if the recipe's have names
+  std::vector<DrawnNumber> drawn{};       ///< if the recipe has random numbers
 };
 
-/// How long a case took, and how large the process that made it had grown.
+/// How long a case took, and the largest size of the process that made it.
 struct TimesRecord {
   CaseId id;
   StageTimes times;
   double peak_memory;  ///< MiB, resident
 };
 
-/// One line of JSON, without the line's end (docs/formats.md).
+/// One line of JSON, without its end (docs/formats.md).
 std::string to_json(const CaseRecord& record);
 std::string to_json(const TimesRecord& record);
 
-/// The inverse. Throws InputError with `place` for what to_json() did not write.
+/// The inverse. Throws InputError with file and line for anything that to_json() does not write.
 CaseRecord case_record(const std::string& json, const std::string& file, std::size_t line);
 TimesRecord times_record(const std::string& json, const std::string& file, std::size_t line);
 

@@ -9,7 +9,6 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/case_files.hpp"
 #include "tanglebin/dataset/dataset.hpp"
-#include "tanglebin/dataset/finished_cases.hpp"
 
 namespace tanglebin {
 namespace {
@@ -32,7 +31,7 @@ std::vector<Part> open_parts(const std::vector<fs::path>& directories, const Rec
   return parts;
 }
 
-// Which part to take each case from.
+// The part to take each case from.
 std::map<CaseId, const Part*> sources(const std::vector<Part>& parts, const std::vector<CaseId>& of_recipe) {
   const std::set<CaseId> known(of_recipe.begin(), of_recipe.end());
   std::map<CaseId, const Part*> sources;
@@ -52,7 +51,7 @@ std::map<CaseId, const Part*> sources(const std::vector<Part>& parts, const std:
   return sources;
 }
 
-// What is written is what a run would have written.
+// Only files that a run would have written are copied.
 void expect_own_paths(const CaseRecord& record, const std::vector<std::string>& own,
                       const fs::path& manifest) {
   for (const FileRecord& file : record.files) {

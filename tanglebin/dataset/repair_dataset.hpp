@@ -7,8 +7,8 @@
 
 namespace tanglebin {
 
-/// Makes the broken cases that verify_dataset() found again, and no others, and with them manifest and
-/// digest. Throws as generate_dataset() does.
+/// Makes the broken cases that verify_dataset() found again, and no others, and updates manifest and digest.
+/// Throws as generate_dataset() does.
 FillSummary repair_dataset(const std::filesystem::path& directory, const VerifySummary& found, int jobs,
                            const RunObserver& observer = {});
 

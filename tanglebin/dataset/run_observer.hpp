@@ -8,7 +8,7 @@
 
 namespace tanglebin {
 
-/// How far a run over many cases is.
+/// The progress of a run over many cases.
 struct RunProgress {
   std::size_t wanted = 0;    ///< cases asked for
   std::size_t found = 0;     ///< of these, there before the run
@@ -25,7 +25,7 @@ struct CaseEvent {
   std::string failure;       ///< why it is given up; empty where it is made
 };
 
-/// Told in the calling process how a run over many cases goes.
+/// Functions to call, in the calling process, as a run over many cases goes on.
 struct RunObserver {
   std::function<void(const RunProgress&)> progress = [](const auto&) {};  ///< a few times a second
   std::function<void(const CaseEvent&, const RunProgress&)> ended = [](const auto&, const auto&) {};

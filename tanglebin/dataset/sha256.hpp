@@ -6,7 +6,7 @@
 
 namespace tanglebin {
 
-/// SHA-256 (FIPS 180-4) of bytes that come piece by piece.
+/// SHA-256 (FIPS 180-4) of bytes added piece by piece.
 class Sha256 {
 public:
   Sha256();
@@ -16,7 +16,7 @@ public:
 
   void add(std::string_view bytes);
 
-  /// Of all bytes so far, as 64 lower-case hexadecimal digits.
+  /// The hash of all bytes so far, as 64 lower-case hexadecimal digits.
   std::string hex() const;
 
 private:

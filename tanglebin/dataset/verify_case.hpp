@@ -12,16 +12,15 @@
 // Internal to the library: one case of verify_dataset().
 namespace tanglebin {
 
-/// An error without the file that it is about.
+/// An error's text without its file.
 std::string complaint_of(const InputError& error);
 
-/// What is wrong with a file of these bytes as an SDF world, or as a PNG picture of this size, all of which
-/// is decoded: one line, empty where nothing is.
+/// What is wrong with these bytes as an SDF world, or as a PNG picture of this size (which is decoded): one
+/// line, empty if nothing is.
 std::string fault_of_world(const std::string& bytes);
 std::string fault_of_png(const std::string& bytes, int width, int height);
 
-/// What is wrong with the record, the files and the physics of a case. With `rest`, its heap is simulated,
-/// too.
+/// What is wrong with the record, the files and the physics of a case. With `rest`, also simulates its heap.
 std::vector<DatasetFault> faults_of_case(const std::filesystem::path& directory, const Recipe& recipe,
                                          const CaseRecord& record, bool rest);
 

@@ -13,7 +13,6 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/catalogue.hpp"
 #include "tanglebin/dataset/fill_dataset.hpp"
-#include "tanglebin/dataset/finished_cases.hpp"
 #include "tanglebin/dataset/verify_case.hpp"
 #include "tanglebin/runs/journal.hpp"
 #include "tanglebin/runs/workers.hpp"
@@ -23,17 +22,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One dataset under inspection.
+/// The verification of one dataset.
 class Verification {
 public:
-  Verification(const fs::path& directory, const VerifySettings& settings, const RunObserver& observer)
-      : directory_(directory), settings_(settings), observer_(observer) {
-    summary_.recipe = read_recipe(directory / "recipe.toml");
+  Verification(const fs::path& directory, Recipe recipe, const VerifySettings& settings,
+               const RunObserver& observer)
+      : directory_(directory),
+        settings_(settings),
+        observer_(observer),
+        catalogue_(directory, Catalogue::Damage::is_passed_over) {
+    summary_.recipe = std::move(recipe);
     for (const CaseId& id : cases(summary_.recipe)) state_.try_emplace(id);
   }
 
   VerifySummary run() {
-    check_recipe();
     read_manifest();
     read_failures();
     check_summary();
@@ -56,14 +58,6 @@ private:
   void add(const CaseId& id, std::string what) {
     state_[id].is_broken = true;
     add(name_of(id), std::move(what));
-  }
-
-  void check_recipe() {
-    try {
-      expect_same_recipe(directory_ / "recipe.toml", summary_.recipe);
-    } catch (const InputError& error) {
-      add("recipe.toml", fmt::format("line {} is not as it was written", error.place().line));
-    }
   }
 
   void read_manifest() {
@@ -108,8 +102,7 @@ private:
   }
 
   void read_failures() {
-    const Catalogue catalogue(directory_, Catalogue::Damage::is_passed_over);
-    for (const auto& [id, failed] : catalogue.failed()) {
+    for (const auto& [id, failed] : catalogue_.failed()) {
       if (const auto found = state_.find(id); found != state_.end() && !found->second.is_there) {
         add(id, fmt::format("failed: {} (seed {:016x})", failed.reason, failed.seed));
       }
@@ -136,11 +129,12 @@ private:
 
   void find_journals() {
     for (const fs::path& journal : journals_in(directory_)) {
-      add(journal.filename().string(), "a run is under way or was cut off; the same command goes on");
+      add(journal.filename().string(),
+          "a run is in progress or was interrupted; the same command resumes it");
     }
   }
 
-  // In the folders of cases; what else lies in the directory is the user's.
+  // Only in the folders of cases; anything else in the directory is the user's.
   void find_unlisted_files() {
     std::set<std::string> folders;
     for (const auto& [id, state] : state_) folders.insert(folder_name(id.set, id.tubes));
@@ -154,7 +148,6 @@ private:
   }
 
   void check_cases() {
-    const Catalogue catalogue(directory_, Catalogue::Damage::is_passed_over);
     std::vector<CaseId> there;
     for (const auto& [id, state] : state_) {
       if (state.is_there) there.push_back(id);
@@ -162,7 +155,7 @@ private:
     RunProgress progress{.wanted = there.size()};
     const auto check = [&](std::size_t task) {
       std::string lines;
-      for (const auto& [where, what] : faults_of(catalogue, there[task])) {
+      for (const auto& [where, what] : faults_of(there[task])) {
         lines += fmt::format("{}\t{}\n", where, what);
       }
       return lines;
@@ -185,9 +178,9 @@ private:
     summary_.was_stopped = !all;
   }
 
-  std::vector<DatasetFault> faults_of(const Catalogue& catalogue, const CaseId& id) const {
+  std::vector<DatasetFault> faults_of(const CaseId& id) const {
     try {
-      return faults_of_case(directory_, summary_.recipe, catalogue.record(id), settings_.rest);
+      return faults_of_case(directory_, summary_.recipe, catalogue_.record(id), settings_.rest);
     } catch (const InputError& error) {
       return {{name_of(id), complaint_of(error)}};
     }
@@ -214,6 +207,7 @@ private:
   const fs::path& directory_;
   const VerifySettings& settings_;
   const RunObserver& observer_;
+  const Catalogue catalogue_;
   std::map<CaseId, State> state_;           ///< of the recipe's cases
   std::map<std::string, CaseId> scenes_;    ///< by the checksum of their configurations
   std::unordered_set<std::string> listed_;  ///< paths in the manifest
@@ -225,7 +219,7 @@ private:
 
 VerifySummary verify_dataset(const fs::path& directory, const VerifySettings& settings,
                              const RunObserver& observer) {
-  return Verification(directory, settings, observer).run();
+  return Verification(directory, read_recipe(directory / "recipe.toml"), settings, observer).run();
 }
 
 }  // namespace tanglebin

@@ -199,7 +199,10 @@ void write_results(const fs::path& directory, const Dataset& dataset, const Expe
     if (const auto found = finished.times.find(run); found != finished.times.end())
       times += found->second + '\n';
   });
-  write_file(directory / "generation.jsonl", times_text(dataset.finished, all));
+  StagedFile generation(directory / "generation.jsonl", directory);
+  dataset.catalogue.for_each_times_line(all,
+                                        [&](const std::string& line) { generation.append(line + '\n'); });
+  generation.commit();
   write_file(times_of(directory), times);
   write_file(results_of(directory), results);
   write_file(experiment_of(directory),

@@ -12,10 +12,7 @@ namespace tanglebin {
 namespace {
 
 TubeKind known_kind(const TubeSpec& spec) {
-  TubeKind kind{.radius = spec.radius, .segments = {}};
-  for (const Segment& segment : spec.segments)
-    kind.segments.push_back({segment.from, segment.to, segment.length});
-  return kind;
+  return {.radius = spec.radius, .segments = {spec.segments.begin(), spec.segments.end()}};
 }
 
 PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int32_t> labels) {

@@ -27,7 +27,7 @@ std::size_t index_of_node(const Tube& tube, int id) {
 }
 
 // Algorithm 1, lines 4-10, from a node that the tube has already. Inner nodes are numbered from next_id on.
-void draw_segment(Rng& rng, const Segment& segment, int& next_id, Tube& tube) {
+void draw_segment(Rng& rng, const SegmentSpec& segment, int& next_id, Tube& tube) {
   const int cylinders = uniform_integer(rng, segment.cylinders_min, segment.cylinders_max);
   const std::vector<double> lengths =
       draw_lengths(rng, cylinders, segment.length, segment.cylinder_length_min);
@@ -50,7 +50,7 @@ Tube draw_once(Rng& rng, const TubeSpec& spec, int id) {
   tube.nodes.push_back({1, Eigen::Vector3d::Zero()});
   // The named nodes are one more than the segments, and the published files leave the id after them free.
   int next_id = static_cast<int>(spec.segments.size()) + 3;
-  for (const Segment& segment : spec.segments) draw_segment(rng, segment, next_id, tube);
+  for (const SegmentSpec& segment : spec.segments) draw_segment(rng, segment, next_id, tube);
   return tube;
 }
 

@@ -31,7 +31,7 @@ void expect_angle(double radians, const std::string& field) {
          "an angle from 0 to 180°");
 }
 
-void validate_sizes(const Segment& segment, const std::string& where) {
+void validate_sizes(const SegmentSpec& segment, const std::string& where) {
   expect_positive(segment.length, where + "length");
   expect_positive(segment.cylinder_length_min, where + "cylinder_length_min");
   expect(segment.cylinders_min >= 1, where + "cylinders_min", fmt::format("{}", segment.cylinders_min),
@@ -47,7 +47,7 @@ void validate_sizes(const Segment& segment, const std::string& where) {
          fmt::format("no more than the length, {} m", segment.length));
 }
 
-void validate_bends(const Segment& segment, const std::string& where) {
+void validate_bends(const SegmentSpec& segment, const std::string& where) {
   expect_angle(segment.bend_max, where + "bend_max");
   expect_angle(segment.bend_min, where + "bend_min");
   expect(segment.bend_min <= segment.bend_max, where + "bend_min",
@@ -57,7 +57,7 @@ void validate_bends(const Segment& segment, const std::string& where) {
 
 // Segments may be drawn in their order only where each starts at a node that is there already and ends at a
 // new one: then they make a tree.
-void validate_nodes(const Segment& segment, const std::string& where, std::set<int>& reached, int nodes) {
+void validate_nodes(const SegmentSpec& segment, const std::string& where, std::set<int>& reached, int nodes) {
   expect(reached.contains(segment.from), where + "from", fmt::format("node {}", segment.from),
          reached.size() == 1 ? "node 1, where the first segment starts"
                              : "node 1 or the end of an earlier segment");

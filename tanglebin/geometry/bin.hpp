@@ -13,6 +13,8 @@ struct Bin {
   double height = 0.20;   ///< m, from the floor's upper side to the rim
   double wall = 0.02;     ///< m, thickness of walls and floor
   double friction = 100;  ///< Coulomb coefficient of a tube against the bin
+
+  bool operator==(const Bin&) const = default;
 };
 
 /// "paper" (0.55 x 0.37 x 0.20 m, Section 6.1) or "published" (0.80 x 0.60 x 0.20 m, as in the published

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
@@ -35,6 +36,13 @@ bool is_rotation(const Eigen::Matrix3d& matrix) {
 }
 
 }  // namespace
+
+bool operator==(const Camera& camera, const Camera& other) {
+  const auto numbers = [](const Camera& of) {
+    return std::tuple(of.width, of.height, of.fx, of.fy, of.cx, of.cy);
+  };
+  return numbers(camera) == numbers(other) && camera.pose.matrix() == other.pose.matrix();
+}
 
 Camera downward_camera(int width, int height, double focal_length_px, const Vector3d& position) {
   Camera camera;

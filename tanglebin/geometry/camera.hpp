@@ -21,6 +21,9 @@ struct Camera {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< camera frame → world frame
 };
 
+/// Whether all members are equal, bit for bit except for the sign of zeros.
+bool operator==(const Camera& camera, const Camera& other);
+
 /// A camera at `position` (m) that looks straight down. The image's x axis is along the world's x, pixels are
 /// square, and the principal point is at the image's centre.
 Camera downward_camera(int width, int height, double focal_length_px, const Eigen::Vector3d& position);

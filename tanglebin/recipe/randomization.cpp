@@ -1,22 +1,14 @@
 #include "tanglebin/recipe/randomization.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <initializer_list>
-#include <iterator>
-#include <limits>
-#include <map>
-#include <sstream>
-#include <string_view>
+#include <cstdint>
+#include <utility>
 
-#include "tanglebin/base/counter_random.hpp"
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/base/random.hpp"
 
 namespace tanglebin {
 namespace {
@@ -28,12 +20,15 @@ constexpr std::array<std::string_view, 9> whole_keys{"width",         "height", 
                                                      "iterations",    "iterations_max", "cylinders_min",
                                                      "cylinders_max", "from",           "to"};
 
-constexpr std::array<std::string_view, 8> lens_keys{"width", "height", "hfov_deg", "focal_length_px",
-                                                    "fx",    "fy",     "cx",       "cy"};
-// Of these, the ones that the others follow from where they are not said.
+// The other settings of a lens follow from these where they are not given.
 constexpr std::array<std::string_view, 4> leading_lens_keys{"width", "height", "hfov_deg", "focal_length_px"};
+constexpr std::array<std::string_view, 4> following_lens_keys{"fx", "fy", "cx", "cy"};
 constexpr std::array<std::string_view, 4> pose_keys{"position", "rotation_wxyz", "rotation_matrix",
                                                     "look_at"};
+// Of a lens or pose that is partly random, the fixed settings that the camera at its lowest does not tell.
+constexpr std::array<std::string_view, 6> fixed_lens_keys{"hfov_deg", "focal_length_px", "fx", "fy", "cx",
+                                                          "cy"};
+constexpr std::array<std::string_view, 2> fixed_pose_keys{"rotation_wxyz", "look_at"};
 
 bool holds(const auto& keys, std::string_view key) {
   return std::ranges::find(keys, key) != keys.end();
@@ -45,7 +40,7 @@ bool is_random(const toml::node& node) {
          std::ranges::any_of(keys_of_ranges, [&](std::string_view key) { return table->contains(key); });
 }
 
-/// Is it, or has it in an array, a number to be drawn?
+/// Is it a random number or an array with one?
 bool holds_random(const toml::node& node) {
   if (is_random(node)) return true;
   const toml::array* array = node.as_array();
@@ -53,238 +48,243 @@ bool holds_random(const toml::node& node) {
                                          [](const toml::node& element) { return holds_random(element); });
 }
 
-std::string path_of(const std::string& table, std::string_view key) {
-  return table.empty() ? std::string(key) : fmt::format("{}.{}", table, key);
-}
+// Reading
 
-/// Calls visit(path, node) for all that is in a table, inner tables and arrays too, but not for what is in a
-/// number to be drawn.
-void for_each_node(const toml::node& node, const std::string& path,
-                   const std::function<void(const std::string&, const toml::node&)>& visit) {
-  visit(path, node);
-  if (is_random(node)) return;
-  if (const toml::table* table = node.as_table()) {
-    for (const auto& [key, value] : *table) for_each_node(value, path_of(path, key.str()), visit);
+/// A random number's table, for messages.
+struct Range {
+  const std::string& path;
+  const toml::table& table;
+  const TomlSource& source;
+
+  [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
+    throw InputError({source.file(), source.line(path), path}, found, expected);
   }
-  if (const toml::array* array = node.as_array()) {
-    for (std::size_t i = 0; i < array->size(); ++i) {
-      for_each_node((*array)[i], fmt::format("{}[{}]", path, i), visit);
-    }
-  }
-}
+};
 
-std::size_t offset_of(const std::string& text, const toml::source_position& position) {
-  std::size_t line_begin = 0;
-  for (toml::source_index line = 1; line < position.line; ++line)
-    line_begin = text.find('\n', line_begin) + 1;
-  return line_begin + position.column - 1;
-}
-
-// "bin.height" is a length.
-bool is_whole(std::string_view path) {
-  const std::size_t last = path.rfind('.');
-  return last != std::string_view::npos && holds(whole_keys, path.substr(last + 1)) &&
-         !path.starts_with("bin.");
-}
-
-[[noreturn]] void fail(const RandomNumber& number, const std::string& file, const std::string& found,
-                       const std::string& expected) {
-  throw InputError({file, number.line, number.path}, found, expected);
-}
-
-double finite_number(const toml::node& node, const RandomNumber& number, const std::string& file) {
+double finite_number(const toml::node& node, const Range& range) {
   const auto value = node.value<double>();
-  if (!value || !std::isfinite(*value)) fail(number, file, "what is no number", "finite numbers");
-  if (number.integer && !node.is_integer()) fail(number, file, real_text(*value), "whole numbers");
+  const bool valid = value && std::isfinite(*value) && (node.is_integer() || !is_whole(range.path));
+  if (!valid) range.fail(description(node), is_whole(range.path) ? "whole numbers" : "finite numbers");
   return *value;
 }
 
-void read_range(const toml::table& range, RandomNumber& number, const std::string& file) {
-  if (!range.contains("min") || !range.contains("max") || range.size() != 2) {
-    fail(number, file, "a table", "{ min = NUMBER, max = NUMBER } or { one_of = [NUMBERS] }");
+RandomNumber read_limits(const Range& range) {
+  if (!range.table.contains("min") || !range.table.contains("max") || range.table.size() != 2) {
+    range.fail("a table", "{ min = NUMBER, max = NUMBER } or { one_of = [NUMBERS] }");
   }
-  number.min = finite_number(*range.get("min"), number, file);
-  number.max = finite_number(*range.get("max"), number, file);
+  RandomNumber number;
+  number.min = finite_number(*range.table.get("min"), range);
+  number.max = finite_number(*range.table.get("max"), range);
   if (!(number.min <= number.max)) {
-    fail(number, file, fmt::format("min = {} above max = {}", number.min, number.max), "the two exchanged");
-  }
-}
-
-void read_list(const toml::table& list, RandomNumber& number, const std::string& file) {
-  const toml::array* values = list.get("one_of")->as_array();
-  if (values == nullptr || values->empty() || list.size() != 1) {
-    fail(number, file, "a table", "{ one_of = [NUMBERS] }, at least one of them");
-  }
-  number.one_of.reserve(values->size());
-  for (const toml::node& value : *values) number.one_of.push_back(finite_number(value, number, file));
-}
-
-RandomNumber read_random_number(const std::string& path, const toml::node& node, const std::string& text,
-                                const std::string& file) {
-  const toml::source_region& source = node.source();
-  RandomNumber number{.path = path,
-                      .line = source.begin.line,
-                      .begin = offset_of(text, source.begin),
-                      .end = offset_of(text, source.end),
-                      .integer = is_whole(path),
-                      .one_of = {}};
-  const toml::table& table = *node.as_table();
-  if (table.contains("one_of")) {
-    read_list(table, number, file);
-  } else {
-    read_range(table, number, file);
+    range.fail(fmt::format("min = {} and max = {}", number.min, number.max), "min to be at most max");
   }
   return number;
 }
 
-std::string number_text(const RandomNumber& place, double number) {
-  return place.integer ? fmt::format("{}", static_cast<std::int64_t>(number)) : real_text(number);
+RandomNumber read_list(const Range& range) {
+  const toml::array* values = range.table.get("one_of")->as_array();
+  if (values == nullptr || values->empty() || range.table.size() != 1) {
+    range.fail("a table", "{ one_of = [NUMBERS] } with at least one number");
+  }
+  RandomNumber number;
+  number.one_of.reserve(values->size());
+  for (const toml::node& value : *values) number.one_of.push_back(finite_number(value, range));
+  return number;
 }
 
-std::string text_of(const toml::node& node);
-
-std::string text_of_array(const toml::array& array) {
-  std::vector<std::string> elements;
-  elements.reserve(array.size());
-  for (const toml::node& element : array) elements.push_back(text_of(element));
-  return fmt::format("[{}]", fmt::join(elements, ", "));
+RandomNumber read_random_number(const Range& range) {
+  return range.table.contains("one_of") ? read_list(range) : read_limits(range);
 }
 
-// Of a number, an array or a number to be drawn.
-std::string text_of(const toml::node& node) {
-  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
-  if (const auto* real = node.as_floating_point()) return real_text(real->get());
-  if (const toml::array* array = node.as_array()) return text_of_array(*array);
-  const toml::table& table = *node.as_table();
-  if (const toml::node* values = table.get("one_of"))
-    return fmt::format("{{ one_of = {} }}", text_of(*values));
-  return fmt::format("{{ min = {}, max = {} }}", text_of(*table.get("min")), text_of(*table.get("max")));
+// Settings
+
+// All numbers of a node, fixed or random.
+void add_settings_of(const toml::node& node, const std::string& path, std::vector<RandomSetting>& settings) {
+  for_each_node(node, path, [&](const std::string& place, const toml::node& value) {
+    if (is_random(value)) {
+      settings.push_back({place, read_random_number({place, *value.as_table(), {}})});
+      return false;
+    }
+    if (value.is_number()) settings.push_back({place, *value.value<double>()});
+    return true;
+  });
 }
 
 void add_settings(const toml::table& table, const std::string& path, std::vector<RandomSetting>& settings) {
   const auto any_random_of = [&](const auto& keys) {
-    return std::ranges::any_of(keys, [&](std::string_view key) {
-      const toml::node* node = table.get(key);
-      return node != nullptr && holds_random(*node);
-    });
+    return path.starts_with("scanner") && std::ranges::any_of(keys, [&](std::string_view key) {
+             const toml::node* node = table.get(key);
+             return node != nullptr && holds_random(*node);
+           });
   };
   const bool lens = any_random_of(leading_lens_keys);
   const bool pose = any_random_of(pose_keys);
   for (const auto& [key, node] : table) {
-    const bool goes_with = (lens && holds(lens_keys, key.str())) || (pose && holds(pose_keys, key.str()));
-    if (goes_with || holds_random(node)) settings.push_back({path, std::string(key.str()), text_of(node)});
+    const bool goes_with =
+        (lens && holds(fixed_lens_keys, key.str())) || (pose && holds(fixed_pose_keys, key.str()));
+    if (goes_with || holds_random(node)) add_settings_of(node, path_of(path, key.str()), settings);
   }
 }
 
-/// Says which table of a resolved recipe comes after which.
-class TableOfHeader {
-public:
-  /// Goes on to the table of this header.
-  void enter(const std::string& line) {
-    const bool is_array = line.starts_with("[[");
-    const std::size_t first = is_array ? 2 : 1;
-    const std::string name = line.substr(first, line.find(']') - first);
-    if (is_array) {
-      ++counts_[name];
-      std::erase_if(counts_, [&](const auto& entry) { return entry.first.starts_with(name + '.'); });
-    }
-    path_ = indexed(name);
-  }
-
-  const std::string& path() const { return path_; }
-
-private:
-  std::string indexed(const std::string& name) const {
-    std::string path;
-    std::string prefix;
-    std::istringstream parts(name);
-    for (std::string part; std::getline(parts, part, '.');) {
-      prefix = path_of(prefix, part);
-      path = path_of(path, part);
-      if (const auto count = counts_.find(prefix); count != counts_.end()) {
-        path += fmt::format("[{}]", count->second - 1);
-      }
-    }
-    return path;
-  }
-
-  std::map<std::string, std::size_t> counts_;  ///< of the tables of each array so far
-  std::string path_;
-};
-
-/// Does a resolved recipe's `key` say what one of the settings, under another key, says otherwise?
-bool is_replaced(std::string_view key, const std::vector<RandomSetting>& settings) {
-  const auto any_of = [&](std::initializer_list<std::string_view> keys) {
-    return std::ranges::any_of(settings,
-                               [&](const RandomSetting& setting) { return holds(keys, setting.key); });
-  };
-  if (key == "fx" || key == "fy" || key == "cx" || key == "cy") {
-    return any_of({"hfov_deg", "focal_length_px", "width", "height"});
-  }
-  return key == "rotation_matrix" && any_of({"rotation_wxyz", "look_at"});
+void replace_prefix(std::string& text, const std::string& prefix, const std::string& replacement) {
+  if (text.starts_with(prefix)) text.replace(0, prefix.size(), replacement);
 }
 
-/// A table of a resolved recipe with settings in place of its own; those that it has not come first.
-std::string section_with(const std::vector<std::string>& lines, const std::vector<RandomSetting>& settings) {
-  const auto key_of = [](const std::string& line) { return line.substr(0, line.find(' ')); };
-  const auto text_of_setting = [](const RandomSetting& setting) {
-    return fmt::format("{} = {}\n", setting.key, setting.value);
-  };
-  std::string first;
-  for (const RandomSetting& setting : settings) {
-    if (std::ranges::find(lines, setting.key, key_of) == lines.end()) first += text_of_setting(setting);
-  }
-  std::string text;
-  for (const std::string& line : lines) {
-    const auto setting = std::ranges::find(settings, key_of(line), &RandomSetting::key);
-    if (setting != settings.end()) {
-      text += text_of_setting(*setting);
-    } else if (!is_replaced(key_of(line), settings)) {
-      text += line + '\n';
+// A set's only kind of tubes, and a tube's only segment, are written without an array around them.
+std::string written_path(std::string path, const Recipe& recipe) {
+  for (std::size_t i = 0; i < recipe.sets.size(); ++i) {
+    const std::vector<TubeSpec>& kinds = recipe.sets[i].kinds;
+    const std::string tube = fmt::format("set[{}].tube", i);
+    if (kinds.size() == 1) replace_prefix(path, tube + "[0].", tube + ".");
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      const std::string kind = kinds.size() == 1 ? tube : fmt::format("{}[{}]", tube, k);
+      if (kinds[k].segments.size() == 1) replace_prefix(path, kind + ".segment[0].", kind + ".");
     }
-    if (line.starts_with('[')) text += first;
   }
-  return text;
+  return path;
+}
+
+// The nodes of a tube's only segment, which must be 1 and 2, are not written.
+bool is_written(const RandomSetting& setting) {
+  const std::string_view key = key_in(setting.path);
+  const bool is_end = key == "from" || key == "to";
+  return !is_end || table_in(setting.path).find(".segment[") != std::string_view::npos;
+}
+
+// Writing
+
+/// Calls `put` with the number as TOML has it. One that is not whole where it must be is an error of the
+/// reader's.
+template <typename Put>
+void put_number(double number, bool whole, const Put& put) {
+  constexpr double most = 1LL << 53;
+  if (whole && std::trunc(number) == number && std::abs(number) <= most) {
+    put(static_cast<std::int64_t>(number));
+  } else {
+    put(number);
+  }
+}
+
+toml::table random_table(const RandomNumber& number, bool whole) {
+  toml::table table;
+  table.is_inline(true);
+  if (number.one_of.empty()) {
+    put_number(number.min, whole, [&](auto value) { table.insert("min", value); });
+    put_number(number.max, whole, [&](auto value) { table.insert("max", value); });
+    return table;
+  }
+  toml::array values;
+  for (const double choice : number.one_of)
+    put_number(choice, whole, [&](auto value) { values.push_back(value); });
+  table.insert("one_of", std::move(values));
+  return table;
+}
+
+toml::table& table_of(toml::table& tree, const RandomSetting& setting) {
+  toml::table* table = toml::at_path(tree, table_in(setting.path)).as_table();
+  if (table == nullptr) throw InputError({"", 0, setting.path}, "no table of the recipe");
+  return *table;
+}
+
+// Removes what a setting says, perhaps in another way.
+void make_way(toml::table& table, std::string_view key) {
+  table.erase(key);
+  if (holds(leading_lens_keys, key)) {
+    for (const std::string_view other : following_lens_keys) table.erase(other);
+  }
+  if (key == "rotation_wxyz" || key == "look_at") table.erase("rotation_matrix");
+}
+
+/// Puts a value under its key or, the elements of an array coming in order, at the array's end.
+template <typename Value>
+void put_value(toml::table& table, std::string_view path, Value value) {
+  const std::string_view key = key_in(path);
+  const std::string_view index = path.substr(table_in(path).size() + 1 + key.size());
+  if (index.empty()) {
+    table.insert_or_assign(key, std::move(value));
+    return;
+  }
+  if (!table.contains(key)) table.insert(key, toml::array{});
+  toml::array* array = table.get(key)->as_array();
+  const bool is_in_matrix = index.find('[', 1) != std::string_view::npos;
+  if (is_in_matrix) {
+    if (array->empty() || index.ends_with("[0]")) array->push_back(toml::array{});
+    array = array->back().as_array();
+  }
+  array->push_back(std::move(value));
+}
+
+void put_setting(toml::table& table, const RandomSetting& setting) {
+  const auto put = [&](auto value) { put_value(table, setting.path, std::move(value)); };
+  const bool whole = is_whole(setting.path);
+  if (const RandomNumber* number = std::get_if<RandomNumber>(&setting.value)) {
+    put(random_table(*number, whole));
+  } else {
+    put_number(std::get<double>(setting.value), whole, put);
+  }
+}
+
+// Drawing
+
+void replace_random(toml::node& node, const std::string& path, const NumbersByPath& numbers) {
+  const auto replace = [&](toml::node& inner, const std::string& place, const auto& put) {
+    if (is_random(inner)) {
+      put_number(numbers.at(place), is_whole(place), put);
+    } else {
+      replace_random(inner, place, numbers);
+    }
+  };
+  if (toml::table* table = node.as_table()) {
+    for (auto&& [key, value] : *table) {
+      const std::string_view name = key.str();
+      replace(value, path_of(path, name), [&](auto number) { table->insert_or_assign(name, number); });
+    }
+  }
+  if (toml::array* array = node.as_array()) {
+    for (std::size_t i = 0; i < array->size(); ++i) {
+      const auto at = array->cbegin() + static_cast<std::ptrdiff_t>(i);
+      replace((*array)[i], fmt::format("{}[{}]", path, i), [&](auto number) { array->replace(at, number); });
+    }
+  }
 }
 
 }  // namespace
 
-std::vector<RandomNumber> find_random_numbers(const toml::table& root, const std::string& text,
-                                              const std::string& file) {
-  std::vector<RandomNumber> numbers;
-  for_each_node(root, "", [&](const std::string& path, const toml::node& node) {
-    if (is_random(node)) numbers.push_back(read_random_number(path, node, text, file));
+std::string_view table_in(std::string_view path) {
+  const std::size_t last = path.rfind('.');
+  return last == std::string_view::npos ? std::string_view{} : path.substr(0, last);
+}
+
+std::string_view key_in(std::string_view path) {
+  const std::string_view table = table_in(path);
+  const std::string_view place = table.empty() ? path : path.substr(table.size() + 1);
+  return place.substr(0, place.find('['));
+}
+
+bool is_whole(std::string_view path) {
+  return !table_in(path).empty() && holds(whole_keys, key_in(path)) &&
+         !path.starts_with("bin.");  // "bin.height" is a length
+}
+
+std::vector<PlacedNumber> find_random_numbers(const toml::table& tree, const TomlSource& source) {
+  std::vector<std::pair<toml::source_position, PlacedNumber>> found;
+  for_each_node(tree, "", [&](const std::string& path, const toml::node& node) {
+    if (!is_random(node)) return true;
+    found.emplace_back(node.source().begin,
+                       PlacedNumber{path, read_random_number({path, *node.as_table(), source})});
+    return false;
   });
-  std::ranges::sort(numbers, {}, &RandomNumber::begin);
+  std::ranges::sort(found, [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<PlacedNumber> numbers;
+  numbers.reserve(found.size());
+  for (auto& [position, number] : found) numbers.push_back(std::move(number));
   return numbers;
 }
 
-std::string with_numbers(const std::string& text, const std::vector<RandomNumber>& places,
-                         const std::vector<double>& numbers) {
-  std::string result;
-  std::size_t done = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const RandomNumber& place = places[i];
-    const auto replaced = std::string_view(text).substr(place.begin, place.end - place.begin);
-    result += text.substr(done, place.begin - done) + number_text(place, numbers[i]);
-    result.append(static_cast<std::size_t>(std::ranges::count(replaced, '\n')), '\n');
-    done = place.end;
-  }
-  return result + text.substr(done);
-}
-
-double draw_number(const RandomNumber& number, const std::string& name, std::uint64_t recipe_seed,
-                   const CaseId& id) {
-  constexpr int no_attempt = 0;  // of a scene's: these count from 1
-  const std::uint64_t seed = attempt_seed(recipe_seed, id.set, id.tubes, id.number, no_attempt);
-  const CounterRandom random(attempt_seed(seed, name, 0, 0, 0), 0);
-  const double uniform = random.uniform(0);
-  if (!number.one_of.empty()) {
-    return number.one_of[static_cast<std::size_t>(uniform * static_cast<double>(number.one_of.size()))];
-  }
-  if (number.integer)
-    return std::min(number.max, std::floor(number.min + uniform * (number.max - number.min + 1)));
-  return number.min + uniform * (number.max - number.min);
+toml::table with_numbers(const toml::table& tree, const NumbersByPath& numbers) {
+  toml::table drawn = tree;
+  replace_random(drawn, "", numbers);
+  return drawn;
 }
 
 std::vector<double> numbers_to_try(const RandomNumber& number) {
@@ -299,35 +299,21 @@ double highest(const RandomNumber& number) {
   return std::ranges::max(numbers_to_try(number));
 }
 
-std::vector<RandomSetting> random_settings(const toml::table& root) {
+std::vector<RandomSetting> random_settings(const toml::table& tree, const Recipe& recipe) {
   std::vector<RandomSetting> settings;
-  for_each_node(root, "", [&](const std::string& path, const toml::node& node) {
-    if (node.is_table() && !is_random(node)) add_settings(*node.as_table(), path, settings);
+  for_each_node(tree, "", [&](const std::string& path, const toml::node& node) {
+    if (is_random(node)) return false;
+    if (node.is_table()) add_settings(*node.as_table(), path, settings);
+    return true;
   });
+  for (RandomSetting& setting : settings) setting.path = written_path(setting.path, recipe);
+  std::erase_if(settings, [](const RandomSetting& setting) { return !is_written(setting); });
   return settings;
 }
 
-std::string with_settings(const std::string& resolved, const std::vector<RandomSetting>& settings) {
-  std::string text;
-  TableOfHeader table;
-  std::vector<std::string> section;  // the lines of a table, its header first
-  const auto finish_section = [&] {
-    std::vector<RandomSetting> here;
-    std::ranges::copy_if(settings, std::back_inserter(here),
-                         [&](const RandomSetting& setting) { return setting.table == table.path(); });
-    text += section_with(section, here);
-    section.clear();
-  };
-  std::istringstream lines(resolved);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with('[')) {
-      finish_section();
-      table.enter(line);
-    }
-    section.push_back(line);
-  }
-  finish_section();
-  return text;
+void put_settings(toml::table& tree, const std::vector<RandomSetting>& settings) {
+  for (const RandomSetting& setting : settings) make_way(table_of(tree, setting), key_in(setting.path));
+  for (const RandomSetting& setting : settings) put_setting(table_of(tree, setting), setting);
 }
 
 }  // namespace tanglebin

@@ -1,54 +1,50 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "tanglebin/recipe/case_id.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 #include "tanglebin/recipe/toml_table.hpp"
 
+// Internal to the room: random numbers in TOML trees. Drawing replaces them, so the reader of recipes knows
+// nothing of them.
 namespace tanglebin {
 
-// Internal to the room: numbers of a recipe that are drawn anew for each case. They are found in, and put
-// into, the recipe's text, so that whatever reads a recipe reads one whose numbers have been drawn.
-
-/// A number that is to be drawn: `{ min = 0.1, max = 0.3 }` or `{ one_of = [1, 2, 5] }`.
-struct RandomNumber {
-  std::string path;   ///< of its key, and its place in an array: "scanner.position[2]"
-  std::size_t line;   ///< where it stands in the text
-  std::size_t begin;  ///< offset in the text, and that of what follows
-  std::size_t end;
-  bool integer;                ///< drawn as a whole number
-  std::vector<double> one_of;  ///< empty for a range
-  double min = 0;
-  double max = 0;
+/// A random number of a tree, `{ min = 0.1, max = 0.3 }` or `{ one_of = [1, 2, 5] }`, and its place.
+struct PlacedNumber {
+  std::string path;
+  RandomNumber number;
 };
 
-/// All numbers to be drawn of a recipe's text (ASCII), in the text's order; `root` is the text parsed. Throws
-/// InputError naming file, line and key of a range that is upside down or no range.
-std::vector<RandomNumber> find_random_numbers(const toml::table& root, const std::string& text,
-                                              const std::string& file);
+/// Finds the random numbers of a tree, in the file's order. Throws InputError naming file, line and key of a
+/// range that is upside down or incomplete.
+std::vector<PlacedNumber> find_random_numbers(const toml::table& tree, const TomlSource& source);
 
-/// The text with a number in each one's place, line by line as it was.
-std::string with_numbers(const std::string& text, const std::vector<RandomNumber>& places,
-                         const std::vector<double>& numbers);
+/// Numbers to replace random ones, by path.
+using NumbersByPath = std::map<std::string, double>;
 
-/// The number of a case of a recipe with this seed. Numbers with different names are unrelated.
-double draw_number(const RandomNumber& number, const std::string& name, std::uint64_t recipe_seed,
-                   const CaseId& id);
+/// A copy of the tree with its random numbers replaced.
+toml::table with_numbers(const toml::table& tree, const NumbersByPath& numbers);
 
-/// A range's two ends; all that there is in a list.
+/// Is the number at this path drawn and written as a whole number?
+bool is_whole(std::string_view path);
+
+/// The two ends of a range; all numbers of a list.
 std::vector<double> numbers_to_try(const RandomNumber& number);
-double lowest(const RandomNumber& number);  ///< of them
+double lowest(const RandomNumber& number);
 double highest(const RandomNumber& number);
 
-/// The settings that random numbers are in, and those that go with them: where a part of a scanner's lens or
-/// pose is random, all of what the recipe says of the lens or the pose.
-std::vector<RandomSetting> random_settings(const toml::table& root);
+/// The settings of a tree that are random, and those that must be read together with a random one. `recipe`
+/// is the tree's, read with any numbers.
+std::vector<RandomSetting> random_settings(const toml::table& tree, const Recipe& recipe);
 
-/// The text of a resolved recipe with these settings in place of its own.
-std::string with_settings(const std::string& resolved, const std::vector<RandomSetting>& settings);
+/// Puts settings into a tree, in place of what they replace. Throws InputError for a setting of no table.
+void put_settings(toml::table& tree, const std::vector<RandomSetting>& settings);
+
+/// The table and the key of a path: "scanner" and "position" of "scanner.position[2]".
+std::string_view table_in(std::string_view path);
+std::string_view key_in(std::string_view path);
 
 }  // namespace tanglebin

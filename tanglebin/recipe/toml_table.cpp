@@ -33,8 +33,7 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return row.back();
 }
 
-// Which of `known` was meant by `key`: one that differs in few characters, or one that it is the beginning
-// of.
+// Which of `known` was meant by `key`: one that differs in few characters, or that begins with it.
 std::string hint(std::string_view key, const std::vector<std::string_view>& known) {
   const auto distance = [key](std::string_view other) { return edit_distance(key, other); };
   const auto begins_with_key = [key](std::string_view other) {
@@ -46,6 +45,14 @@ std::string hint(std::string_view key, const std::vector<std::string_view>& know
   const auto longer = std::ranges::find_if(known, begins_with_key);
   if (longer != known.end()) return fmt::format("did you mean {}?", excerpt(*longer));
   return fmt::format("expected one of {}", fmt::join(known, ", "));
+}
+
+}  // namespace
+
+std::string real_text(double value) {
+  const std::string text = fmt::format("{}", value);
+  const bool is_float = text.find_first_of(".ein") != std::string::npos;  // also "inf" and "nan"
+  return is_float ? text : text + ".0";
 }
 
 std::string description(const toml::node& node) {
@@ -67,28 +74,49 @@ std::string description(const toml::node& node) {
   }
 }
 
-}  // namespace
-
-std::string real_text(double value) {
-  const std::string text = fmt::format("{}", value);
-  const bool is_float = text.find_first_of(".ein") != std::string::npos;  // also "inf" and "nan"
-  return is_float ? text : text + ".0";
+std::string path_of(std::string_view table, std::string_view key) {
+  return table.empty() ? std::string(key) : fmt::format("{}.{}", table, key);
 }
 
-TomlTable::TomlTable(const std::string& file, const toml::table& table, std::string path)
-    : file_(file), table_(table), path_(std::move(path)) {}
+void for_each_node(const toml::node& node, const std::string& path,
+                   const std::function<bool(const std::string&, const toml::node&)>& visit) {
+  if (!visit(path, node)) return;
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [key, value] : *table) for_each_node(value, path_of(path, key.str()), visit);
+  }
+  if (const toml::array* array = node.as_array()) {
+    for (std::size_t i = 0; i < array->size(); ++i) {
+      for_each_node((*array)[i], fmt::format("{}[{}]", path, i), visit);
+    }
+  }
+}
+
+TomlSource::TomlSource(std::string file, const toml::table& root) : file_(std::move(file)) {
+  for_each_node(root, "", [&](const std::string& path, const toml::node& node) {
+    lines_.emplace(path, node.source().begin.line);
+    return true;
+  });
+}
+
+std::size_t TomlSource::line(const std::string& path) const {
+  const auto found = lines_.find(path);
+  return found == lines_.end() ? 0 : found->second;
+}
+
+TomlTable::TomlTable(const TomlSource& source, const toml::table& table, std::string path)
+    : source_(source), table_(table), path_(std::move(path)) {}
 
 void TomlTable::allow(const std::vector<std::string_view>& known) const {
   for (const auto& [key, node] : table_) {
     if (std::ranges::find(known, key.str()) != known.end()) continue;
-    throw InputError({file_, key.source().begin.line, path_},
+    throw InputError({file(), key.source().begin.line, path_},
                      fmt::format("unknown key {}, {}", excerpt(key.str()), hint(key.str(), known)));
   }
 }
 
 void TomlTable::require(std::initializer_list<std::string_view> keys) const {
   for (const std::string_view key : keys)
-    if (!has(key)) throw InputError({file_, line(key), path_of(key)}, "is missing");
+    if (!has(key)) throw InputError({file(), line(key), path_of(key)}, "is missing");
 }
 
 void TomlTable::allow_one_of(std::initializer_list<std::string_view> keys) const {
@@ -96,88 +124,97 @@ void TomlTable::allow_one_of(std::initializer_list<std::string_view> keys) const
   for (const std::string_view key : keys) {
     if (!has(key)) continue;
     if (!first.empty())
-      throw InputError({file_, line(key), path_of(key)}, fmt::format("cannot stand beside {}", first));
+      throw InputError({file(), line(key), path_of(key)}, fmt::format("cannot be combined with {}", first));
     first = key;
   }
 }
 
 void TomlTable::get(std::string_view key, double& value) const {
-  if (const toml::node* node = find(key)) value = real({*node, key});
+  if (const auto found = value_of(key)) value = real(*found);
 }
 
 void TomlTable::get(std::string_view key, int& value) const {
-  if (const toml::node* node = find(key)) value = static_cast<int>(integer({*node, key}, int_min, int_max));
+  if (const auto found = value_of(key)) value = static_cast<int>(integer(*found, int_min, int_max));
 }
 
 void TomlTable::get(std::string_view key, std::uint64_t& value) const {
-  if (const toml::node* node = find(key))
-    value = static_cast<std::uint64_t>(integer({*node, key}, 0, std::numeric_limits<std::int64_t>::max()));
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  if (const auto found = value_of(key)) value = static_cast<std::uint64_t>(integer(*found, 0, most));
 }
 
 void TomlTable::get(std::string_view key, bool& value) const {
-  if (const toml::node* node = find(key)) value = as<bool>({*node, key}, "true or false");
+  if (const auto found = value_of(key)) value = as<bool>(*found, "true or false");
 }
 
 void TomlTable::get(std::string_view key, std::string& value) const {
-  if (const toml::node* node = find(key)) value = as<std::string>({*node, key}, "a string");
+  if (const auto found = value_of(key)) value = as<std::string>(*found, "a string");
 }
 
 void TomlTable::get(std::string_view key, std::vector<int>& values) const {
-  const toml::node* node = find(key);
-  if (node == nullptr) return;
+  const auto found = value_of(key);
+  if (!found) return;
   values.clear();
-  for (const toml::node& element : array({*node, key}, "an array of whole numbers"))
-    values.push_back(static_cast<int>(integer({element, key}, int_min, int_max)));
+  for (const Value& element : elements(*found, "an array of whole numbers"))
+    values.push_back(static_cast<int>(integer(element, int_min, int_max)));
 }
 
 void TomlTable::get(std::string_view key, Eigen::Vector3d& values) const {
-  if (const toml::node* node = find(key)) values = vector<3>({*node, key});
+  if (const auto found = value_of(key)) values = vector<3>(*found);
 }
 
 void TomlTable::get(std::string_view key, Eigen::Vector4d& values) const {
-  if (const toml::node* node = find(key)) values = vector<4>({*node, key});
+  if (const auto found = value_of(key)) values = vector<4>(*found);
 }
 
 void TomlTable::get(std::string_view key, Eigen::Matrix3d& values) const {
-  const toml::node* node = find(key);
-  if (node == nullptr) return;
+  const auto found = value_of(key);
+  if (!found) return;
   const std::string expected = "an array of 3 rows";
-  const toml::array& rows = array({*node, key}, expected);
-  if (rows.size() != 3) fail({*node, key}, fmt::format("an array of {}", rows.size()), expected);
-  for (std::size_t i = 0; i < 3; ++i) values.row(static_cast<Eigen::Index>(i)) = vector<3>({rows[i], key});
+  const std::vector<Value> rows = elements(*found, expected);
+  if (rows.size() != 3) fail(*found, fmt::format("an array of {}", rows.size()), expected);
+  for (std::size_t i = 0; i < 3; ++i) values.row(static_cast<Eigen::Index>(i)) = vector<3>(rows[i]);
 }
 
 TomlTable TomlTable::table(std::string_view key) const {
   static const toml::table none;
   const toml::node* node = find(key);
-  if (node == nullptr) return {file_, none, path_of(key)};
+  if (node == nullptr) return {source_, none, path_of(key)};
   if (!node->is_table()) fail(key, description(*node), fmt::format("a table [{}]", key));
-  return {file_, *node->as_table(), path_of(key)};
+  return {source_, *node->as_table(), path_of(key)};
 }
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   std::vector<TomlTable> result;
-  const toml::node* node = find(key);
-  if (node == nullptr) return result;
+  const auto found = value_of(key);
+  if (!found) return result;
   const std::string expected = fmt::format("an array of tables [[{}]]", key);
-  for (const toml::node& element : array({*node, key}, expected)) {
-    if (!element.is_table()) fail({element, key}, description(element), expected);
-    result.emplace_back(file_, *element.as_table(), fmt::format("{}[{}]", path_of(key), result.size()));
+  for (const Value& element : elements(*found, expected)) {
+    if (!element.node.is_table()) fail(element, description(element.node), expected);
+    result.emplace_back(source_, *element.node.as_table(), element.path);
   }
   return result;
 }
 
 std::size_t TomlTable::line(std::string_view key) const {
-  const toml::node* node = find(key);
-  return (node != nullptr ? *node : table_).source().begin.line;
+  return source_.line(has(key) ? path_of(key) : path_);
 }
 
 void TomlTable::fail(std::string_view key, const std::string& found, const std::string& expected) const {
-  throw InputError({file_, line(key), path_of(key)}, found, expected);
+  throw InputError({file(), line(key), path_of(key)}, found, expected);
 }
 
-std::string TomlTable::path_of(std::string_view key) const {
-  return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+std::optional<TomlTable::Value> TomlTable::value_of(std::string_view key) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  return Value{*node, key, path_of(key)};
+}
+
+std::vector<TomlTable::Value> TomlTable::elements(const Value& value, const std::string& expected) const {
+  if (!value.node.is_array()) fail(value, description(value.node), expected);
+  std::vector<Value> result;
+  for (const toml::node& element : *value.node.as_array())
+    result.push_back({element, value.key, fmt::format("{}[{}]", value.path, result.size())});
+  return result;
 }
 
 double TomlTable::real(const Value& value) const {
@@ -197,17 +234,11 @@ std::int64_t TomlTable::integer(const Value& value, std::int64_t least, std::int
 template <int Size>
 Eigen::Matrix<double, Size, 1> TomlTable::vector(const Value& value) const {
   const std::string expected = fmt::format("an array of {} numbers", Size);
-  const toml::array& elements = array(value, expected);
-  if (elements.size() != Size) fail(value, fmt::format("an array of {}", elements.size()), expected);
-  Eigen::Matrix<double, Size, 1> numbers;
-  for (std::size_t i = 0; i < Size; ++i)
-    numbers[static_cast<Eigen::Index>(i)] = real({elements[i], value.key});
-  return numbers;
-}
-
-const toml::array& TomlTable::array(const Value& value, const std::string& expected) const {
-  if (!value.node.is_array()) fail(value, description(value.node), expected);
-  return *value.node.as_array();
+  const std::vector<Value> numbers = elements(value, expected);
+  if (numbers.size() != Size) fail(value, fmt::format("an array of {}", numbers.size()), expected);
+  Eigen::Matrix<double, Size, 1> result;
+  for (std::size_t i = 0; i < Size; ++i) result[static_cast<Eigen::Index>(i)] = real(numbers[i]);
+  return result;
 }
 
 template <typename Type>
@@ -218,7 +249,7 @@ const Type& TomlTable::as(const Value& value, const std::string& expected) const
 }
 
 void TomlTable::fail(const Value& value, const std::string& found, const std::string& expected) const {
-  throw InputError({file_, value.node.source().begin.line, path_of(value.key)}, found, expected);
+  throw InputError({file(), source_.line(value.path), path_of(value.key)}, found, expected);
 }
 
 }  // namespace tanglebin

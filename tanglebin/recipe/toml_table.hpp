@@ -8,7 +8,10 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,26 +21,55 @@ namespace tanglebin {
 /// A number as a TOML float, in its shortest form: "1.0", "-0.0", "1e-05".
 std::string real_text(double value);
 
-/// A table of a TOML file read strictly: every error is an InputError with the file, the line and the key's
-/// whole path. Refers to the file's name and the parsed table; they must outlive it.
+/// What a node is, for messages: "a table", "1.5", "'some text'".
+std::string description(const toml::node& node);
+
+/// The path of a key in the table with the path `table`: "bin.height"; of the root's, "seed".
+std::string path_of(std::string_view table, std::string_view key);
+
+/// Calls `visit(path, node)` for a node and, as long as it returns true, for what is in the node: "set",
+/// "set[0]", "set[0].name", …
+void for_each_node(const toml::node& node, const std::string& path,
+                   const std::function<bool(const std::string&, const toml::node&)>& visit);
+
+/// A TOML file's name and the lines of everything in it, for messages. Copies of a parsed tree have no lines.
+class TomlSource {
+public:
+  /// A tree that comes from no file: no lines are known.
+  TomlSource() = default;
+
+  TomlSource(std::string file, const toml::table& root);
+
+  const std::string& file() const { return file_; }
+
+  /// Where the value of this path begins; 0 if unknown.
+  std::size_t line(const std::string& path) const;
+
+private:
+  std::string file_;
+  std::map<std::string, std::size_t> lines_;
+};
+
+/// Reads a table of a TOML tree strictly: every error is an InputError with the file, the line and the key's
+/// whole path. Refers to the source and the tree; they must outlive it.
 class TomlTable {
 public:
   /// `path` is the table's own: "set[0].tube", empty for the root.
-  TomlTable(const std::string& file, const toml::table& table, std::string path);
+  TomlTable(const TomlSource& source, const toml::table& table, std::string path);
 
   bool has(std::string_view key) const { return find(key) != nullptr; }
 
-  /// Throws for a key that is none of `known`, and guesses which was meant.
+  /// Throws for a key that is not in `known`, with a guess which was meant.
   void allow(const std::vector<std::string_view>& known) const;
 
   /// Throws for the first of `keys` that is missing.
   void require(std::initializer_list<std::string_view> keys) const;
 
-  /// Throws if more than one of `keys` is there.
+  /// Throws if the table has more than one of `keys`.
   void allow_one_of(std::initializer_list<std::string_view> keys) const;
 
-  /// Sets `value` to that of a key; leaves it as it is where there is no such key. Real numbers may be
-  /// written as integers; they must be finite.
+  /// Sets `value` to that of a key, or leaves it if there is no such key. Real numbers may be written as
+  /// integers; they must be finite.
   void get(std::string_view key, double& value) const;
   void get(std::string_view key, int& value) const;
   void get(std::string_view key, std::uint64_t& value) const;  ///< up to 2⁶³ − 1, TOML's greatest
@@ -48,41 +80,44 @@ public:
   void get(std::string_view key, Eigen::Vector4d& values) const;
   void get(std::string_view key, Eigen::Matrix3d& values) const;  ///< an array of rows
 
-  /// The table under `key`; an empty one where there is none.
+  /// The table under `key`; an empty one if there is none.
   TomlTable table(std::string_view key) const;
 
-  /// The tables of the array under `key`; none where there is none.
+  /// The tables of the array under `key`, if any.
   std::vector<TomlTable> tables(std::string_view key) const;
 
   /// Is there an array under `key`?
   bool is_array(std::string_view key) const { return has(key) && find(key)->is_array(); }
 
-  const std::string& file() const { return file_; }
+  const std::string& file() const { return source_.file(); }
 
-  /// Where a key's value begins; where the table begins for a key that is not there.
+  /// Where a key's value begins; for a missing key, where the table begins.
   std::size_t line(std::string_view key) const;
 
   [[noreturn]] void fail(std::string_view key, const std::string& found, const std::string& expected) const;
 
 private:
   const toml::node* find(std::string_view key) const { return table_.get(key); }
-  std::string path_of(std::string_view key) const;
+  std::string path_of(std::string_view key) const { return tanglebin::path_of(path_, key); }
 
-  // A node and the key that an error in it names: its own, or that of the array around it.
+  // A node, the key that errors name (an array element's is the array's), and the node's own path.
   struct Value {
     const toml::node& node;
     std::string_view key;
+    std::string path;
   };
+  std::optional<Value> value_of(std::string_view key) const;
+  std::vector<Value> elements(const Value& value, const std::string& expected) const;
+
   double real(const Value& value) const;
   std::int64_t integer(const Value& value, std::int64_t least, std::int64_t most) const;
   template <int Size>
   Eigen::Matrix<double, Size, 1> vector(const Value& value) const;
-  const toml::array& array(const Value& value, const std::string& expected) const;
   template <typename Type>
   const Type& as(const Value& value, const std::string& expected) const;
   [[noreturn]] void fail(const Value& value, const std::string& found, const std::string& expected) const;
 
-  const std::string& file_;
+  const TomlSource& source_;
   const toml::table& table_;
   std::string path_;
 };

@@ -31,8 +31,8 @@ bool try_to_lock(int descriptor, const fs::path& file) {
   return false;
 }
 
-// Not where the run that had the lock before has removed the file, and maybe another one has made it anew.
-// (On NFS the name may be a remembered one; the removed file has no names in any case.)
+// False if the run that had the lock before has removed the file, even if another run has created it again.
+// (On NFS the name may be cached; a removed file has no names in any case.)
 bool is_still_the_file(int descriptor, const fs::path& file) {
   struct stat opened {};
   struct stat named {};

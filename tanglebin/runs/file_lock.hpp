@@ -5,13 +5,13 @@
 
 namespace tanglebin {
 
-/// An open file that one run keeps for itself: an "open file description" lock (fcntl(2), F_OFD_SETLK), which
-/// a process shares with those that it forks, which the kernel gives back when the last of them ends, and
-/// which holds between machines where the file system is shared (NFS 4; Lustre mounted with `flock`).
+/// An open file that one run keeps for itself, by an "open file description" lock (fcntl(2), F_OFD_SETLK). A
+/// process shares it with its forks, and the kernel releases it when the last of them ends. It also works
+/// between machines on a shared file system (NFS 4; Lustre mounted with `flock`).
 class FileLock {
 public:
-  /// Opens the file for reading and appending, makes it where it is missing, and locks it; nullopt where
-  /// another run has it. Throws InputError where the file cannot be opened or is a symbolic link.
+  /// Opens the file for reading and appending, creates it if missing, and locks it; nullopt if another run
+  /// has the lock. Throws InputError if the file cannot be opened or is a symbolic link.
   static std::optional<FileLock> take(const std::filesystem::path& file);
 
   ~FileLock();
@@ -26,8 +26,8 @@ private:
   int descriptor_;
 };
 
-/// A directory's lock, for the moments in which a run reads or writes what runs of other names read or write,
-/// too. Waits for it without limit: who has it is at work, or has ended, and then the kernel gives it back.
+/// A directory's lock, held while a run reads or writes files that runs of other names use too. Waits for it
+/// without limit: its owner is at work, or has ended, and then the kernel releases it.
 class DirectoryLock {
 public:
   explicit DirectoryLock(const std::filesystem::path& directory);

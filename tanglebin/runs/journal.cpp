@@ -31,8 +31,7 @@ fs::path staging_of(const fs::path& journal) {
   return journal.parent_path() / ("." + journal.stem().string() + ".unfinished");
 }
 
-// Those who fold the journals of runs that were cut off have these for a moment, and the directory's lock
-// with them.
+// A run that folds the journals of interrupted runs locks them briefly, together with the directory.
 std::optional<FileLock> take_lock(const fs::path& file) {
   const DirectoryLock lock(file.parent_path());
   return FileLock::take(file);
@@ -50,14 +49,14 @@ FileLock wait_for_lock(const fs::path& file, std::chrono::seconds patience) {
 }
 
 std::chrono::seconds patience_of(const std::string& name) {
-  // Long enough for the workers of a run that was killed to be gone.
+  // Long enough for the workers of a killed run to end.
   constexpr std::chrono::seconds on_one_machine{3};
-  // Long enough for a file server to give up the locks of a machine that died.
+  // Long enough for a file server to release the locks of a machine that died.
   constexpr std::chrono::seconds on_a_cluster{120};
   return name.empty() ? on_one_machine : on_a_cluster;
 }
 
-// A run that was cut off may have left a torn line; what is appended is to begin a new one.
+// An interrupted run may have left a torn line; the next line must not continue it.
 void cut_torn_line(const fs::path& file) {
   std::uintmax_t whole = 0;
   for_each_whole_line(file, [&](const std::string& line, std::size_t) { whole += line.size() + 1; });
@@ -106,9 +105,9 @@ std::vector<fs::path> journals_in(const fs::path& directory) {
   std::vector<fs::path> journals;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
     const std::string name = entry.path().filename().string();
-    const bool is_called_so = name == stem_of({}) + std::string(extension) ||
-                              (name.starts_with("journal-") && name.ends_with(extension));
-    if (is_called_so && fs::is_regular_file(entry.symlink_status())) journals.push_back(entry.path());
+    const bool is_journal = name == stem_of({}) + std::string(extension) ||
+                            (name.starts_with("journal-") && name.ends_with(extension));
+    if (is_journal && fs::is_regular_file(entry.symlink_status())) journals.push_back(entry.path());
   }
   std::ranges::sort(journals);
   return journals;

@@ -11,18 +11,18 @@
 
 namespace tanglebin {
 
-/// The journal of a run in a directory: a line for each task that is done and not yet in the directory's
-/// other files. A run that is cut off leaves it behind; the next one reads it. A run keeps its journal
-/// locked, so that there is one run of a name in a directory at a time; those of different names may be there
-/// side by side. A journal has a directory beside it for files that are not finished.
+/// The journal of a run in a directory: a line for each task that is done but not yet in the directory's
+/// other files. An interrupted run leaves it behind, and the next run reads it. A run keeps its journal
+/// locked, so only one run of a name can be in a directory at a time; runs of different names may work side
+/// by side. A journal has a directory beside it for unfinished files.
 class Journal {
 public:
-  /// Opens the journal `directory`/journal.jsonl, or journal-NAME.jsonl where there is a name ("2-of-8"), for
-  /// this process and those that it forks, with the whole lines that an earlier run left. Throws InputError
-  /// where another run has it for longer than this one waits: a few seconds, two minutes where it has a name.
+  /// Opens the journal `directory`/journal.jsonl, or journal-NAME.jsonl for a name such as "2-of-8", for this
+  /// process and its forks. It keeps the whole lines that an earlier run left. Throws InputError if another
+  /// run still has it after a few seconds, or two minutes if it has a name.
   explicit Journal(const std::filesystem::path& directory, const std::string& name = {});
 
-  /// Removes the directory for unfinished files, and the journal where it is empty.
+  /// Removes the directory for unfinished files, and the journal if it is empty.
   ~Journal();
   Journal(Journal&&) = default;
   Journal& operator=(Journal&&) = delete;
@@ -32,13 +32,14 @@ public:
   /// Whether it has no lines.
   bool is_empty() const;
 
-  /// A directory on the same disk for files that are not finished; empty at first.
+  /// A directory on the same disk for unfinished files; empty at first.
   const std::filesystem::path& staging() const { return staging_; }
 
-  /// On the disk when it returns. Throws InputError where that fails ("No space left on device", …).
+  /// The lines are on the disk when it returns. Throws InputError if that fails ("No space left on device",
+  /// …).
   void append(const std::vector<std::string>& lines) const;
 
-  /// Empties the journal: what its lines say stands elsewhere, on the disk.
+  /// Empties the journal, once its lines are in other files on the disk.
   void clear() const;
 
 private:
@@ -50,20 +51,19 @@ private:
   FileLock lock_;
 };
 
-/// The directory's journals, whoever has them: files that are called as Journal calls them, and no symbolic
-/// links.
+/// All journals in the directory, locked or not: files with a journal's name that are no symbolic links.
 std::vector<std::filesystem::path> journals_in(const std::filesystem::path& directory);
 
-/// Those of runs that were cut off.
+/// The journals of interrupted runs, locked.
 std::vector<Journal> abandoned_journals(const std::filesystem::path& directory);
 
-/// Calls `take` with every line of the file that has its end, and the line's number: a last line that was cut
-/// off is passed over. A file that is not there has no lines; throws InputError for one that cannot be read.
+/// Calls `take` with every whole line of the file and its number; skips a last line without an end. A missing
+/// file has no lines. Throws InputError for a file that cannot be read.
 void for_each_whole_line(const std::filesystem::path& file,
                          const std::function<void(const std::string&, std::size_t)>& take);
 
-/// The same, but lines for which `take` throws InputError are passed over. So journals are read: after a
-/// power cut, lines that a run did not yet rely on may have any bytes, and their tasks are done again.
+/// The same, but also skips lines for which `take` throws InputError. Journals are read this way: after a
+/// power cut, lines that were not yet on the disk may have any bytes, and their tasks are done again.
 void for_each_readable_line(const std::filesystem::path& file,
                             const std::function<void(const std::string&, std::size_t)>& take);
 

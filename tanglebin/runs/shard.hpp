@@ -14,8 +14,8 @@ struct Shard {
   int count = 1;
 };
 
-/// The shard's part of a list: every count-th item, from the index-th on, so that large and small tasks are
-/// spread evenly.
+/// The shard's part of a list: every count-th item, starting with the index-th. This spreads large and small
+/// tasks evenly.
 template <typename Item>
 std::vector<Item> part_of(const Shard& shard, const std::vector<Item>& all) {
   std::vector<Item> part;
@@ -28,12 +28,12 @@ std::vector<Item> part_of(const Shard& shard, const std::vector<Item>& all) {
 /// "2-of-8", as a part of file names.
 std::string name_of(const Shard& shard);
 
-/// Looks up an environment variable; nullopt where it is not set.
+/// Looks up an environment variable; nullopt if it is not set.
 using Environment = std::function<std::optional<std::string>(const std::string& name)>;
 
-/// The shard that a cluster's queue gives to this process: of a Slurm array (SLURM_ARRAY_TASK_ID, _COUNT,
-/// _MIN and _STEP) or of a Kubernetes indexed job (JOB_COMPLETION_INDEX, and JOB_COMPLETIONS, which the job's
-/// manifest has to set). nullopt outside of one. Throws InputError where the variables contradict each other.
+/// The shard that a cluster's queue assigns to this process: in a Slurm array (SLURM_ARRAY_TASK_ID, _COUNT,
+/// _MIN and _STEP) or a Kubernetes indexed job (JOB_COMPLETION_INDEX, and JOB_COMPLETIONS, which the job's
+/// manifest must set). nullopt outside of these. Throws InputError if the variables contradict each other.
 std::optional<Shard> shard_from(const Environment& environment);
 
 }  // namespace tanglebin

@@ -53,8 +53,8 @@ private:
   struct sigaction old_term_ {};
 };
 
-/// One end of the line between the calling process and a worker. Both functions return false when the other
-/// end is gone.
+/// One end of the socket between the calling process and a worker. Both functions return false if the other
+/// end is closed.
 class Line {
 public:
   explicit Line(int descriptor) : descriptor_(descriptor) {}
@@ -94,7 +94,7 @@ private:
 
 enum class Outcome : std::uint32_t { done, bad_input, impossible, exception };
 
-/// What a worker says of its task.
+/// A worker's answer.
 struct Answer {
   Outcome outcome;
   std::string text;
@@ -126,7 +126,7 @@ Answer answer_of(const Task& task, std::size_t number) {
   }
 }
 
-// The life of a worker. Signals are the parent's business.
+// Runs in a worker. The parent handles signals.
 void work(const Line& line, const Task& task, pid_t parent) {
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
@@ -150,12 +150,12 @@ std::string end_of(int status) {
   return fmt::format("its worker ended with status {}", WEXITSTATUS(status));
 }
 
-/// The workers, and who does what.
+/// The workers and their tasks.
 class Crew {
 public:
   Crew(std::size_t count, const Task& task, const WorkersObserver& observer)
       : count_(count), task_(task), observer_(observer) {}
-  // Lets the workers finish what they are at.
+  // Lets the workers finish their tasks.
   ~Crew() {
     for (Worker& worker : workers_) bury(worker);
   }
@@ -175,7 +175,7 @@ public:
       workers_.push_back(std::move(worker));
       return;
     }
-    // Another worker's line would stay open in this one after the parent has closed it.
+    // Otherwise another worker's socket would stay open here after the parent has closed it.
     worker.line.reset();
     for (Worker& other : workers_) other.line.reset();
     work(*other_end, task_, parent);
@@ -196,7 +196,7 @@ public:
 
   const std::optional<std::string>& bad_input() const { return bad_input_; }
 
-  /// Waits a moment for answers, hands out the next tasks, and then tells of what is done.
+  /// Waits briefly for answers, hands out the next tasks, and then reports what is done.
   void turn() {
     std::vector<pollfd> lines;
     lines.reserve(workers_.size());
@@ -283,7 +283,7 @@ private:
     hand_out_tasks();
   }
 
-  // Ends the worker's line and waits for its end; returns the status.
+  // Closes the worker's socket and waits for its end; returns the status.
   static int bury(Worker& worker) {
     worker.line.reset();
     int status = 0;

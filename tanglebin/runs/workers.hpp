@@ -8,11 +8,11 @@
 
 namespace tanglebin {
 
-/// Does one task, in a worker process. What it returns is handed to the calling process; what else it makes
-/// it leaves on disk.
+/// Does one task in a worker process. The returned text goes to the calling process; other results stay on
+/// the disk.
 using Task = std::function<std::string(std::size_t task)>;
 
-/// Thrown by a task that cannot be done, now or later, where the others can.
+/// Thrown by a task that can never be done, although others can.
 class TaskImpossible : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
@@ -31,10 +31,10 @@ struct TaskFailure {
   std::string reason;  ///< it threw TaskImpossible, ended two workers or threw twice
 };
 
-/// What run_in_workers() tells, all of it in the calling process.
+/// What run_in_workers() reports, always in the calling process.
 struct WorkersObserver {
-  /// Tasks that are done since the last call. The workers have their next tasks by then, so that what this
-  /// does holds up nobody.
+  /// Tasks done since the last call. The workers already have their next tasks, so this keeps none of them
+  /// waiting.
   std::function<void(const std::vector<TaskResult>&)> done = [](const auto&) {};
   /// A task that is given up; the run goes on.
   std::function<void(const TaskFailure&)> failed = [](const auto&) {};
@@ -42,13 +42,13 @@ struct WorkersObserver {
   std::function<void()> tick = [] {};
 };
 
-/// Runs tasks 0 … count − 1 in `jobs` forked processes. A worker gets the next task when it is done with its
-/// last, so a slow task holds up nobody. A task that throws TaskImpossible is given up; one whose worker
-/// dies, or that throws anything else but an InputError, is tried once more and then given up; all others are
-/// done. Returns true when each task is done or given up, false when SIGINT or SIGTERM came: then the tasks
-/// under way are finished and the others, if there were any, left. So they are when a task throws InputError,
-/// which is thrown here then, and when an observer throws. Workers end with the calling process, whatever
-/// ends it. Not to be called where other threads run: fork() leaves them behind.
+/// Runs tasks 0 … count − 1 in `jobs` forked processes. A worker gets its next task as soon as it has done
+/// the last, so a slow task delays no other. A task that throws TaskImpossible is given up. One whose worker
+/// dies, or that throws anything but an InputError, is tried once more and then given up. Returns true when
+/// each task is done or given up; false after SIGINT or SIGTERM, when the running tasks are finished and the
+/// rest is left. The same happens if a task throws InputError, which is then thrown here, and if an observer
+/// throws. Workers end with the calling process, whatever ends it. Do not call it while other threads run:
+/// fork() does not copy them.
 bool run_in_workers(int jobs, std::size_t count, const Task& task, const WorkersObserver& observer);
 
 }  // namespace tanglebin

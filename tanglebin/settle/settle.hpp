@@ -31,6 +31,8 @@ struct SettleSettings {
   double proof_motion = 0.001;  ///< m, maximum displacement of a node in the test
   double overlap_max = 0.0003;  ///< m, maximum overlap of a tube with another or with the bin
   double time_limit = 10.0;     ///< s of simulated time, after which a heap is given up
+
+  bool operator==(const SettleSettings&) const = default;
 };
 
 /// The result of a simulation.

@@ -200,7 +200,7 @@ TEST_F(Generate, TheSeedCanBeGivenAndIsInTheResolvedRecipe) {
   EXPECT_THAT(bytes_of(directory_ / "dataset/recipe.toml"), HasSubstr("\nseed = 99\n"));
   const auto other = run_program(command("--cases 1"));
   EXPECT_EQ(other.status, 2);
-  EXPECT_THAT(other.err, HasSubstr("belongs to another recipe: it has \"seed = 99\", this one \"seed = 3\""));
+  EXPECT_THAT(other.err, HasSubstr("belongs to another recipe: seed: it has 99, this one 3"));
 }
 
 TEST_F(Generate, TheResolvedRecipeMakesTheSameDataset) {

@@ -65,6 +65,25 @@ TEST_F(DatasetOnDisk, AFileThatHasChangedIsAnErrorThatNamesIt) {
   EXPECT_THAT(error_of_case(), HasSubstr("A3/plys/2.ply: sha256: found " + sha256(bytes) + ", expected "));
 }
 
+TEST_F(DatasetOnDisk, AManifestThatIsReplacedMeanwhileIsAnError) {
+  const Dataset dataset = read_dataset(directory_.path());
+  const std::string manifest = bytes_of(directory_ / "manifest.jsonl");
+  const std::size_t second = manifest.find('\n') + 1;
+  write_bytes(directory_ / "manifest.jsonl",
+              manifest.substr(second) + std::string(second, ' ') + manifest.substr(second));
+  EXPECT_THROW(read_case(dataset, {"A", 1, 3}), InputError);
+}
+
+TEST_F(DatasetOnDisk, TheTimesOfItsCasesAreReadLineByLine) {
+  const Dataset dataset = read_dataset(directory_.path());
+  std::string lines;
+  dataset.catalogue.for_each_times_line({{"A", 3, 2}, {"A", 1, 1}, {"A", 1, 3}},
+                                        [&](const std::string& line) { lines += line + '\n'; });
+  const std::string times = bytes_of(directory_ / "times.jsonl");
+  const std::size_t second = times.find('\n') + 1;
+  EXPECT_EQ(lines, times.substr(second) + times.substr(0, second));
+}
+
 TEST_F(DatasetOnDisk, ADirectoryWithoutARecipeIsNoDataset) {
   std::filesystem::remove(directory_ / "recipe.toml");
   EXPECT_THAT(error_of_case(), HasSubstr("recipe.toml: cannot be opened"));

@@ -103,7 +103,7 @@ TEST(GenerateDataset, NumbersThatAreDrawnStandInTheManifestAndDependOnNoWorker) 
   const Dataset dataset = read_dataset(one.path());
   std::set<double> heights;
   for (const CaseId& id : cases(dataset)) {
-    const CaseRecord& record = dataset.finished.records.at(id);
+    const CaseRecord record = dataset.catalogue.record(id);
     const Recipe recipe = recipe_of(dataset, id);
     EXPECT_EQ(record.drawn.size(), 3U);
     EXPECT_EQ(record.drawn[0].path, "bin.height");
@@ -222,7 +222,7 @@ TEST(GenerateDataset, AnotherRecipeIsNotLetIn) {
   recipe.seed = 8;
   EXPECT_EQ(complaint([&] { generate(recipe, directory.path()); }),
             (directory / "recipe.toml").string() +
-                ":2: the directory belongs to another recipe: it has \"seed = 7\", this one \"seed = 8\"");
+                ": the directory belongs to another recipe: seed: it has 7, this one 8");
 }
 
 TEST(GenerateDataset, OneRunAtATime) {

@@ -49,7 +49,7 @@ TEST(KnownScene, HasEachKindOfTubesOfItsSet) {
   kinds[1].radius = 0.008;
   kinds[1].segments.resize(3);
   for (int i = 0; i < 3; ++i) {
-    Segment& arm = kinds[1].segments[static_cast<std::size_t>(i)];
+    SegmentSpec& arm = kinds[1].segments[static_cast<std::size_t>(i)];
     arm.to = i + 2;
     arm.length = 0.1;
   }

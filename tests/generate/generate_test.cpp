@@ -291,7 +291,7 @@ TEST(DrawTube, NumbersAChainLikeThePublishedFiles) {
 TEST(DrawTube, NumbersATreeLikeThePublishedFiles) {
   Rng rng(1);
   TubeSpec spec = tree_spec();
-  for (Segment& segment : spec.segments) segment.cylinders_min = segment.cylinders_max = 3;
+  for (SegmentSpec& segment : spec.segments) segment.cylinders_min = segment.cylinders_max = 3;
   const Tube tube = draw_tube(rng, spec, 1);
   EXPECT_THAT(ids_along(tube), ElementsAre(1, 8, 9, 2, 10, 11, 3, 12, 13, 4, 14, 15, 5, 16, 17, 6));
 
@@ -345,7 +345,7 @@ TEST(DrawTube, NeverPassesThroughItself) {
 // Three cylinders of one length, each folded back onto the one before.
 TEST(DrawTube, GivesUpWhereEveryTubePassesThroughItself) {
   TubeSpec spec;
-  spec.segments = {{1, 2, 0.3, 3, 3, 0.1, pi, pi}};
+  spec.segments = {{{1, 2, 0.3}, 3, 3, 0.1, pi, pi}};
   Rng rng(1);
   try {
     draw_tube(rng, spec, 1);

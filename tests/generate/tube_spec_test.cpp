@@ -17,7 +17,7 @@ constexpr double degree = std::numbers::pi / 180;
 // Set C of the published data: two junctions, nodes 1 and 2, and four ends.
 TubeSpec tree() {
   const auto segment = [](int from, int to, double length, int fewest, int most) {
-    return Segment{from, to, length, fewest, most, 0.02, 0.0, 20 * degree};
+    return SegmentSpec{{from, to, length}, fewest, most, 0.02, 0.0, 20 * degree};
   };
   return {0.0125,
           0.75,

@@ -48,9 +48,8 @@ TEST(Camera, AnUnknownPresetIsNamedTogetherWithTheKnownOnes) {
     camera_preset("eye");
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "scanner: found 'eye', expected paper, gaussian, zivid-one-plus-l or kinect-v1");
+    EXPECT_STREQ(error.what(),
+                 "scanner: found 'eye', expected paper, gaussian, zivid-one-plus-l or kinect-v1");
   }
 }
 

@@ -50,7 +50,7 @@ inline TubeSpec chain_spec(double bend_max_deg) {
 /// The published set C: two junctions, nodes 1 and 2, of three branches each.
 inline TubeSpec tree_spec() {
   const auto segment = [](int from, int to, double length, int cylinders_min, int cylinders_max) {
-    return Segment{from, to, length, cylinders_min, cylinders_max, 0.02, 0.0, radians(20)};
+    return SegmentSpec{{from, to, length}, cylinders_min, cylinders_max, 0.02, 0.0, radians(20)};
   };
   return {.radius = 0.0125,
           .mass = 0.75,

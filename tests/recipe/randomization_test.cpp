@@ -7,11 +7,13 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/complaint.hpp"
+#include "tests/support/recipe_of_0_1_0.hpp"
 #include "tests/support/statistics.hpp"
 
 namespace tanglebin {
@@ -168,12 +170,54 @@ TEST(Randomization, TheResolvedRecipeKeepsWhatIsDrawn) {
         "[scanner]\nsigma = { min = 0, max = 0.001 }\nfootprint = 2\n" + sets}) {
     const Recipe recipe = read(text);
     const Recipe again = read(write(recipe));
-    EXPECT_EQ(write(again), write(recipe));
+    EXPECT_TRUE(again == recipe);
+    EXPECT_EQ(difference(again, recipe), std::nullopt);
     for (const CaseId& id : {CaseId{"A", 3, 1}, CaseId{"A", 3, 2}, CaseId{"B", 2, 7}}) {
       EXPECT_EQ(drawn(again, id), drawn(recipe, id));
-      EXPECT_EQ(write(resolve(again, draw(again, id))), write(resolve(recipe, draw(recipe, id))));
+      EXPECT_EQ(resolve(again, draw(again, id)), resolve(recipe, draw(recipe, id)));
     }
   }
+}
+
+TEST(Randomization, WhatIsDrawnIsTheSameInAnyVersion) {
+  const Recipe recipe = read(test::source_of_0_1_0);
+  EXPECT_EQ(draw(recipe, {"A", 2, 1}), test::drawn_by_0_1_0);
+  EXPECT_EQ(draw(read(test::recipe_of_0_1_0), {"A", 2, 1}), test::drawn_by_0_1_0);
+}
+
+TEST(Randomization, ARecipeOfAnEarlierVersionIsTheSame) {
+  const Recipe recipe = read(test::source_of_0_1_0);
+  EXPECT_EQ(read(test::recipe_of_0_1_0), recipe);
+  EXPECT_EQ(difference(read(test::recipe_of_0_1_0), recipe), std::nullopt);
+}
+
+TEST(Randomization, OnlyKindsAndSegmentsInArraysDrawToo) {
+  const std::string set = "[[set]]\nname = \"A\"\ntubes = [2]\n";
+  const std::string tube = "radius = { min = 0.01, max = 0.0125 }\nmass = 0.5\n";
+  const std::string segment = "length = 0.5\nbend_max_deg = 30\ncylinders_max = { min = 5, max = 8 }\n";
+  const Recipe plain = read(set + "[set.tube]\n" + tube + segment);
+  EXPECT_EQ(read(set + "[[set.tube]]\n" + tube + segment), plain);
+  const Recipe nested = read(set + "[[set.tube]]\n" + tube +
+                             "[[set.tube.segment]]\nfrom = { one_of = [1] }\nto = 2\n" + segment);
+  EXPECT_EQ(nested, plain);
+  EXPECT_EQ(read(write(nested)), plain);
+}
+
+TEST(Randomization, AnErrorInARandomRecipeHasItsLine) {
+  EXPECT_THAT(complaint("[bin]\nheight = {min = 0.2, max = 0.3}\n\nlength = -1\n" + sets),
+              HasSubstr("r.toml:4: bin.length: found -1"));
+  EXPECT_THAT(complaint("[scanner]\nposition = [\n  { min = 0, max = 1 },\n  0,\n  true]\n" + sets),
+              HasSubstr("r.toml:5: scanner.position: found true, expected a number"));
+}
+
+TEST(Randomization, ANumberThatCannotHaveBeenDrawnIsAnError) {
+  const Recipe recipe = read("[settle]\niterations = { min = 10, max = 20 }\n" + sets);
+  for (const double number : {10.5, 1e300, -1e300})
+    EXPECT_THAT(test::complaint([&] {
+                  resolve(recipe, {{"settle.iterations", number}});
+                }),
+                HasSubstr("settle.iterations: found"));
+  EXPECT_EQ(test::complaint([&] { resolve(recipe, {}); }), "settle.iterations: has not been drawn");
 }
 
 TEST(Randomization, ARecipeWithoutRangesDrawsNothing) {
@@ -186,21 +230,22 @@ TEST(Randomization, ARecipeWithoutRangesDrawsNothing) {
 
 TEST(Randomization, SaysWhichRangeIsWrongAndWhatToDo) {
   EXPECT_EQ(complaint("[bin]\n\nheight = { min = 0.3, max = 0.2 }\n" + sets),
-            "r.toml:3: bin.height: found min = 0.3 above max = 0.2, expected the two exchanged");
+            "r.toml:3: bin.height: found min = 0.3 and max = 0.2, expected min to be at most max");
   EXPECT_THAT(complaint("[bin]\nheight = { min = 0.3 }\n" + sets),
               HasSubstr("r.toml:2: bin.height: found a table, expected { min = NUMBER, max = NUMBER }"));
   EXPECT_THAT(complaint("[bin]\nheight.min = 0.2\nheight.max = 0.3\n" + sets),
               HasSubstr("r.toml:2: bin.height: found a table, expected a number"));
   EXPECT_THAT(complaint("[bin]\nmin = 0.2\n" + sets), HasSubstr("r.toml:2: bin: unknown key 'min'"))
       << "a table of its own is no range";
-  EXPECT_THAT(complaint("[bin]\nheight = { one_of = [] }\n" + sets), HasSubstr("at least one of them"));
+  EXPECT_THAT(complaint("[bin]\nheight = { one_of = [] }\n" + sets), HasSubstr("with at least one number"));
   EXPECT_THAT(complaint("[bin]\nheight = { one_of = [\"high\"] }\n" + sets),
-              HasSubstr("found what is no number"));
+              HasSubstr("bin.height: found 'high', expected finite numbers"));
   EXPECT_THAT(complaint("[settle]\niterations = { min = 10.5, max = 20 }\n" + sets),
               HasSubstr("settle.iterations: found 10.5, expected whole numbers"));
   EXPECT_THAT(complaint("seed = { min = 1, max = 2 }\n" + sets),
-              HasSubstr("r.toml:1: seed: found a number to be drawn"));
-  EXPECT_THAT(complaint("[scanner]\nwidth = { one_of = [960, 1920] }\n" + sets), HasSubstr("hfov_deg"));
+              HasSubstr("r.toml:1: seed: found a random number, expected a fixed one"));
+  EXPECT_THAT(complaint("[scanner]\nwidth = { one_of = [960, 1920] }\n" + sets),
+              HasSubstr("r.toml:2: scanner.width: found a random image size, expected hfov_deg"));
 }
 
 TEST(Randomization, BothEndsOfARangeMustMakeARecipe) {

@@ -34,11 +34,11 @@ TubeSpec tree_spec() {
   const double bend_max = std::numbers::pi / 9;
   TubeSpec spec;
   spec.mass = 0.75;
-  spec.segments = {{1, 2, 0.30, 5, 10, 0.02, 0, bend_max},
-                   {1, 3, 0.10, 2, 5, 0.02, 0, bend_max},
-                   {1, 4, 0.10, 2, 5, 0.02, 0, bend_max},
-                   {2, 5, 0.10, 2, 5, 0.02, 0, bend_max},
-                   {2, 6, 0.15, 2, 6, 0.02, 0, bend_max}};
+  spec.segments = {{{1, 2, 0.30}, 5, 10, 0.02, 0, bend_max},
+                   {{1, 3, 0.10}, 2, 5, 0.02, 0, bend_max},
+                   {{1, 4, 0.10}, 2, 5, 0.02, 0, bend_max},
+                   {{2, 5, 0.10}, 2, 5, 0.02, 0, bend_max},
+                   {{2, 6, 0.15}, 2, 6, 0.02, 0, bend_max}};
   return spec;
 }
 

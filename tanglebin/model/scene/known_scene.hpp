@@ -11,7 +11,7 @@ namespace tanglebin {
 /// What is known about a kind of tube.
 struct TubeKind {
   double radius = 0.0125;                ///< m
-  SegmentTree segments = {{1, 2, 0.5}};  ///< one for a chain, several for a tree
+  SegmentTree segments = SegmentTree(1);  ///< one for a chain, several for a tree
 
   /// Length of the centre line with all branches, m.
   double length() const { return total_length(segments); }

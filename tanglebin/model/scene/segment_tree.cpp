@@ -205,7 +205,7 @@ void validate(const SegmentTree& tree, const std::string& field) {
 
 double total_length(const SegmentTree& tree) {
   double sum = 0;
-  for (const TreeSegment& segment : tree) sum += segment.length;
+  for (const Segment& segment : tree) sum += segment.length;
   return sum;
 }
 

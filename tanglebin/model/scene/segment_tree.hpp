@@ -3,17 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "tanglebin/geometry/segment.hpp"
+
 namespace tanglebin {
 
-/// The part of a tube's centre line between two named nodes (ends or junctions).
-struct TreeSegment {
-  int from;
-  int to;
-  double length;  ///< m
-};
-
 /// A tube's centre line, reduced to the lengths of its segments: one for a chain, several for a tree.
-using SegmentTree = std::vector<TreeSegment>;
+using SegmentTree = std::vector<Segment>;
 
 /// Throws InputError naming `field` if the segments do not form a tree in which every segment but the first
 /// starts at a node of an earlier one and ends at a new node. Also if there is no segment, a length is not a

@@ -29,7 +29,8 @@ std::string complaint_about(const SegmentTree& tree) {
 TEST(SegmentTree, IsOfSegmentsThatMakeATree) {
   EXPECT_EQ(complaint_about(set_c), "");
   EXPECT_THAT(complaint_about({}), HasSubstr("tree: found none, expected at least one segment"));
-  EXPECT_THAT(complaint_about({{1, 2, 0.1}, {3, 4, 0.1}}), HasSubstr("found a segment from node 3, expected one"));
+  EXPECT_THAT(complaint_about({{1, 2, 0.1}, {3, 4, 0.1}}),
+              HasSubstr("found a segment from node 3, expected one"));
   EXPECT_THAT(complaint_about({{1, 2, 0.1}, {2, 1, 0.1}}), HasSubstr("node 1, which closes a loop"));
   SegmentTree star;
   for (int end = 2; end < 15; ++end) star.push_back({1, end, 0.1});

@@ -26,12 +26,12 @@ void expect(bool holds, const std::string& field, const std::string& found, cons
   if (!holds) throw InputError({"", 0, field}, found, expected);
 }
 
-// As TOML calls it: set[0].
+// A set's path in TOML: set[0].
 std::string place(std::size_t set) {
   return fmt::format("set[{}]", set);
 }
 
-// Names become folders' names.
+// Names become parts of folders' names.
 void validate_name(const std::string& name, const std::string& field) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
@@ -45,18 +45,18 @@ void validate_numbers_of_tubes(const std::vector<int>& tubes, const std::string&
   std::set<int> seen;
   for (const int number : tubes) {
     expect(number >= 1 && number <= most_tubes, field, fmt::format("{}", number),
-           fmt::format("numbers of tubes from 1 to {}", most_tubes));
-    expect(seen.insert(number).second, field, fmt::format("{} a second time", number), "numbers that differ");
+           fmt::format("a number of tubes from 1 to {}", most_tubes));
+    expect(seen.insert(number).second, field, fmt::format("{} twice", number), "different numbers");
   }
 }
 
-// The longest straight piece that may be drawn: one cylinder, as long as the shortest others leave it.
-double longest_straight_piece(const Segment& segment) {
+// The longest straight piece that can be drawn: one cylinder beside the shortest others.
+double longest_straight_piece(const SegmentSpec& segment) {
   if (segment.bend_max == 0) return segment.length;
   return segment.length - (segment.cylinders_min - 1) * segment.cylinder_length_min;
 }
 
-// A capsule lies in a box where its axis lies in the box that is a radius smaller on every side.
+// A capsule is in a box if its axis is in the box shrunk by the radius on every side.
 double longest_axis_inside(const Bin& bin, double radius) {
   const Eigen::Array3d inner(bin.length, bin.width, bin.height);
   return (inner - 2 * radius).max(0).matrix().norm();
@@ -65,14 +65,15 @@ double longest_axis_inside(const Bin& bin, double radius) {
 // The bin is not smaller than a tube.
 void validate_fit(const TubeSpec& spec, const Bin& bin, const std::string& where) {
   const double narrowest = std::min(bin.length, bin.width);
-  expect(2 * spec.radius < narrowest, where + ".radius", fmt::format("tubes {:.6g} m thick", 2 * spec.radius),
-         fmt::format("ones that fit between the bin's walls, which are {:.6g} m apart", narrowest));
+  expect(2 * spec.radius < narrowest, where + ".radius",
+         fmt::format("a tube {:.6g} m thick", 2 * spec.radius),
+         fmt::format("less than the {:.6g} m between the bin's walls", narrowest));
   const double room = longest_axis_inside(bin, spec.radius);
   for (std::size_t i = 0; i < spec.segments.size(); ++i) {
     const double longest = longest_straight_piece(spec.segments[i]);
     const std::string segment = spec.segments.size() == 1 ? where : fmt::format("{}.segment[{}]", where, i);
     expect(longest <= room, segment + ".length", fmt::format("a straight piece of up to {:.6g} m", longest),
-           fmt::format("one that fits in the bin, whose diagonal has room for {:.6g} m", room));
+           fmt::format("at most {:.6g} m, the longest that fits in the bin", room));
   }
 }
 
@@ -80,7 +81,7 @@ void validate_set(const SetRecipe& set, const Bin& bin, const std::string& where
   validate_name(set.name, where + ".name");
   validate_numbers_of_tubes(set.tubes, where + ".tubes");
   expect(set.cases >= 1, where + ".cases", fmt::format("{}", set.cases), "at least 1");
-  expect(!set.kinds.empty(), where + ".tube", "none", "at least one kind of tubes");
+  expect(!set.kinds.empty(), where + ".tube", "none", "at least one kind of tube");
   for (std::size_t i = 0; i < set.kinds.size(); ++i) {
     const std::string kind = set.kinds.size() == 1 ? where + ".tube" : fmt::format("{}.tube[{}]", where, i);
     validate(set.kinds[i], kind);
@@ -88,20 +89,19 @@ void validate_set(const SetRecipe& set, const Bin& bin, const std::string& where
   }
 }
 
-// "A" with 11 tubes and "A1" with one would both be in A11.
+// "A" with 11 tubes and "A1" with 1 would share the folder A11.
 void validate_folders(const std::vector<SetRecipe>& sets) {
   std::set<std::string> names;
   std::map<std::string, std::string> folders;  // the set that each belongs to
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const std::string& name = sets[i].name;
-    expect(names.insert(name).second, place(i) + ".name", excerpt(name) + " a second time",
-           "names that differ");
+    expect(names.insert(name).second, place(i) + ".name", excerpt(name) + " twice", "unique names");
     for (const int tubes : sets[i].tubes) {
       const auto [known, is_new] = folders.emplace(folder_name(name, tubes), name);
       expect(is_new, place(i) + ".tubes",
-             fmt::format("{}, whose folder {} is also that of set {}", tubes, known->first,
+             fmt::format("{}, whose folder {} also belongs to set {}", tubes, known->first,
                          excerpt(known->second)),
-             "a folder for each");
+             "different folders");
     }
   }
 }
@@ -110,16 +110,16 @@ void validate_number_of_cases(const std::vector<SetRecipe>& sets) {
   std::int64_t total = 0;
   for (std::size_t i = 0; i < sets.size(); ++i) {
     total += static_cast<std::int64_t>(sets[i].tubes.size()) * sets[i].cases;
-    expect(total <= most_cases, place(i) + ".cases", fmt::format("{} cases up to here", total),
-           fmt::format("at most {} in a recipe", most_cases));
+    expect(total <= most_cases, place(i) + ".cases", fmt::format("{} cases in total", total),
+           fmt::format("at most {}", most_cases));
   }
 }
 
-// A scanner's folder is beside those of the other kinds of files.
+// A scanner's folder is beside the folders of the other kinds of files.
 constexpr std::array<std::string_view, 6> folders_of_kinds{
     "plys", "pcds", "depths", "labels", "tube_configurations", "gazebo_worlds"};
 
-// An error's field says which scanner's it is.
+// Adds to an error's field which scanner it is about.
 void validate_scanner(const Scanner& scanner, const std::string& where) {
   try {
     validate(scanner.camera);
@@ -140,9 +140,9 @@ void validate_scanners(const Recipe& recipe) {
     if (all.size() == 1 && scanner.name.empty()) return;
     validate_name(scanner.name, where + ".name");
     expect(std::ranges::find(folders_of_kinds, scanner.name) == folders_of_kinds.end(), where + ".name",
-           excerpt(scanner.name), "a name that is no other folder's");
-    expect(names.insert(scanner.name).second, where + ".name", excerpt(scanner.name) + " a second time",
-           "names that differ");
+           excerpt(scanner.name), "a name that no other folder has");
+    expect(names.insert(scanner.name).second, where + ".name", excerpt(scanner.name) + " twice",
+           "unique names");
   }
 }
 

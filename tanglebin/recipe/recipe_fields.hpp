@@ -1,0 +1,147 @@
+#pragma once
+
+#include <array>
+#include <initializer_list>
+#include <numbers>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "tanglebin/recipe/recipe.hpp"
+
+// Internal to the room: the keys of a recipe and the members that they set. To read and write a new setting,
+// add a line here.
+namespace tanglebin {
+
+template <typename Struct, typename Value>
+struct Field {
+  const char* key;
+  Value Struct::*member;
+};
+template <typename Struct, typename Value>
+Field(const char*, Value Struct::*) -> Field<Struct, Value>;
+
+/// Degrees in the recipe, radians in the struct.
+template <typename Struct>
+struct AngleField {
+  const char* key;
+  double Struct::*member;
+};
+template <typename Struct>
+AngleField(const char*, double Struct::*) -> AngleField<Struct>;
+
+inline constexpr std::tuple bin_fields{
+    Field{"length", &Bin::length}, Field{"width", &Bin::width},       Field{"height", &Bin::height},
+    Field{"wall", &Bin::wall},     Field{"friction", &Bin::friction},
+};
+inline constexpr std::tuple camera_size_fields{
+    Field{"width", &Camera::width},
+    Field{"height", &Camera::height},
+};
+inline constexpr std::tuple camera_lens_fields{
+    Field{"fx", &Camera::fx},
+    Field{"fy", &Camera::fy},
+    Field{"cx", &Camera::cx},
+    Field{"cy", &Camera::cy},
+};
+inline constexpr std::tuple sensor_fields{
+    Field{"sigma", &Sensor::sigma},
+    Field{"dropout", &Sensor::dropout},
+    Field{"edges", &Sensor::edges},
+    Field{"footprint", &Sensor::footprint},
+    Field{"sub_rays", &Sensor::sub_rays},
+    Field{"edge_jump", &Sensor::edge_jump},
+    Field{"shadows", &Sensor::shadows},
+    Field{"baseline", &Sensor::baseline},
+    Field{"working_distance", &Sensor::working_distance},
+    Field{"signal", &Sensor::signal},
+    Field{"snr", &Sensor::snr},
+    Field{"snr_min", &Sensor::snr_min},
+    Field{"snr_max", &Sensor::snr_max},
+    Field{"albedo_min", &Sensor::albedo_min},
+    Field{"albedo_max", &Sensor::albedo_max},
+    Field{"gloss_min", &Sensor::gloss_min},
+    Field{"gloss_max", &Sensor::gloss_max},
+    Field{"shininess", &Sensor::shininess},
+    Field{"bin_albedo", &Sensor::bin_albedo},
+    Field{"bin_gloss", &Sensor::bin_gloss},
+    Field{"disparity_sigma", &Sensor::disparity_sigma},
+    Field{"trueness", &Sensor::trueness},
+    Field{"trueness_length", &Sensor::trueness_length},
+    Field{"kinect_noise", &Sensor::kinect_noise},
+};
+inline constexpr std::tuple settle_fields{
+    Field{"gravity", &SettleSettings::gravity},
+    Field{"friction", &SettleSettings::friction},
+    Field{"step", &SettleSettings::step},
+    Field{"iterations", &SettleSettings::iterations},
+    Field{"iterations_max", &SettleSettings::iterations_max},
+    Field{"sor", &SettleSettings::sor},
+    Field{"erp", &SettleSettings::erp},
+    Field{"surface_layer", &SettleSettings::surface_layer},
+    Field{"correction_speed", &SettleSettings::correction_speed},
+    Field{"calm_speed", &SettleSettings::calm_speed},
+    Field{"calm_time", &SettleSettings::calm_time},
+    Field{"calm_damping", &SettleSettings::calm_damping},
+    Field{"rest_speed", &SettleSettings::rest_speed},
+    Field{"rest_time", &SettleSettings::rest_time},
+    Field{"proof_time", &SettleSettings::proof_time},
+    Field{"proof_motion", &SettleSettings::proof_motion},
+    Field{"overlap_max", &SettleSettings::overlap_max},
+    Field{"time_limit", &SettleSettings::time_limit},
+};
+inline constexpr std::tuple output_fields{
+    Field{"bin_points", &OutputSettings::bin_points},
+    Field{"worlds", &OutputSettings::worlds},
+    Field{"pcds", &OutputSettings::pcds},
+    Field{"depths", &OutputSettings::depths},
+    Field{"labels", &OutputSettings::labels},
+};
+inline constexpr std::tuple property_fields{
+    Field{"normals", &PointProperties::normals},
+    Field{"intensities", &PointProperties::intensities},
+    Field{"mixed", &PointProperties::mixed},
+};
+inline constexpr std::tuple tube_fields{
+    Field{"radius", &TubeSpec::radius},
+    Field{"mass", &TubeSpec::mass},
+};
+inline constexpr std::tuple segment_end_fields{
+    Field{"from", &Segment::from},
+    Field{"to", &Segment::to},
+};
+inline constexpr std::tuple segment_fields{
+    Field{"length", &Segment::length},
+    Field{"cylinders_min", &SegmentSpec::cylinders_min},
+    Field{"cylinders_max", &SegmentSpec::cylinders_max},
+    Field{"cylinder_length_min", &SegmentSpec::cylinder_length_min},
+    AngleField{"bend_min_deg", &SegmentSpec::bend_min},
+    AngleField{"bend_max_deg", &SegmentSpec::bend_max},
+};
+
+struct EdgesName {
+  Edges edges;
+  std::string_view name;
+};
+inline constexpr std::array<EdgesName, 3> edges_names{
+    {{Edges::keep, "keep"}, {Edges::drop, "drop"}, {Edges::mix, "mix"}}};
+
+inline double radians_from_degrees(double degrees) {
+  constexpr double radians_per_degree = std::numbers::pi / 180;
+  return degrees * radians_per_degree;
+}
+
+using Keys = std::vector<std::string_view>;
+
+template <typename... Fields>
+Keys keys(const std::tuple<Fields...>& fields) {
+  return std::apply([](const auto&... field) { return Keys{field.key...}; }, fields);
+}
+
+inline Keys all(std::initializer_list<Keys> lists) {
+  Keys result;
+  for (const Keys& list : lists) result.insert(result.end(), list.begin(), list.end());
+  return result;
+}
+
+}  // namespace tanglebin
