@@ -4,24 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "tanglebin/geometry/interval.hpp"
+
 namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The part of a line inside a convex solid; empty if enter > leave.
-struct Interval {
-  double enter;
-  double leave;
-};
-constexpr Interval nothing = {infinity, -infinity};
-
 /// The part of the line start + t direction (a unit vector) inside the sphere around the origin.
 Interval inside_sphere(const Vector3d& start, const Vector3d& direction, double radius) {
   const double middle = -start.dot(direction);
   const double half_chord2 = radius * radius - (start + middle * direction).squaredNorm();
-  if (half_chord2 < 0) return nothing;
+  if (half_chord2 < 0) return {};
   const double half_chord = std::sqrt(half_chord2);
   return {middle - half_chord, middle + half_chord};
 }
@@ -59,19 +54,19 @@ std::optional<SurfaceHit> ray_capsule(const Ray& ray, const Capsule& capsule) {
     t = {middle - half_chord, middle + half_chord};
     // A ray that crosses the cylinder's surface beyond an end can only meet the capsule in that end's sphere.
     const auto height = [&](double at) { return (start + at * d).dot(half_axis); };
-    const double enter_height = height(t.enter);
-    const double leave_height = height(t.leave);
-    if (std::abs(enter_height) > h2) t.enter = inside_end(enter_height).enter;
-    if (std::abs(leave_height) > h2) t.leave = inside_end(leave_height).leave;
+    const double enter_height = height(t.low);
+    const double leave_height = height(t.high);
+    if (std::abs(enter_height) > h2) t.low = inside_end(enter_height).low;
+    if (std::abs(leave_height) > h2) t.high = inside_end(leave_height).high;
   } else {
     // The ray runs along the axis, or the capsule is a sphere: it can only meet the spheres at the ends.
     const Interval first = inside_end(-1);
     const Interval second = inside_end(1);
-    t = {std::min(first.enter, second.enter), std::max(first.leave, second.leave)};
+    t = {std::min(first.low, second.low), std::max(first.high, second.high)};
   }
-  if (t.enter > t.leave || t.leave + shift < 0) return std::nullopt;
+  if (t.low > t.high || t.high + shift < 0) return std::nullopt;
 
-  const double hit = t.enter + shift >= 0 ? t.enter : t.leave;
+  const double hit = t.low + shift >= 0 ? t.low : t.high;
   const Vector3d point = start + hit * d;
   const double along = h2 > 0 ? std::clamp(point.dot(half_axis) / h2, -1.0, 1.0) : 0.0;
   return SurfaceHit{hit + shift, (point - along * half_axis) / radius};
@@ -96,21 +91,21 @@ std::optional<SurfaceHit> ray_box(const Ray& ray, const Eigen::AlignedBox3d& box
     const double inverse = 1 / d;
     const double enter = (d > 0 ? to_min : to_max) * inverse;
     const double leave = (d > 0 ? to_max : to_min) * inverse;
-    if (enter > t.enter) {
-      t.enter = enter;
+    if (enter > t.low) {
+      t.low = enter;
       enter_axis = axis;
     }
-    if (leave < t.leave) {
-      t.leave = leave;
+    if (leave < t.high) {
+      t.high = leave;
       leave_axis = axis;
     }
   }
-  if (t.enter > t.leave || t.leave < 0) return std::nullopt;
+  if (t.low > t.high || t.high < 0) return std::nullopt;
 
-  const bool from_outside = t.enter >= 0;
+  const bool from_outside = t.low >= 0;
   const Eigen::Index axis = from_outside ? enter_axis : leave_axis;
   const bool along_axis = ray.direction[axis] > 0;
-  SurfaceHit hit{from_outside ? t.enter : t.leave, Vector3d::Zero()};
+  SurfaceHit hit{from_outside ? t.low : t.high, Vector3d::Zero()};
   hit.normal[axis] = along_axis == from_outside ? -1.0 : 1.0;
   return hit;
 }

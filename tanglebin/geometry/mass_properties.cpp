@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "tanglebin/geometry/interval.hpp"
+
 // Each capsule is cut into thin rods parallel to its axis. A rod ends at the capsule's surface and leaves out
 // what earlier capsules fill. The ends of the rods are exact, so the quadrature is only over the capsule's
 // cross-section. With c = √(1 − ρ²/r²), the area element is r² c dc dφ, and the moments of a single capsule
@@ -26,12 +28,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 struct Line {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction;  // unit
-};
-
-// The part of a line from low to high; empty if high < low.
-struct Interval {
-  double low = infinity;
-  double high = -infinity;
 };
 
 Interval intersection(const Interval& a, const Interval& b) {

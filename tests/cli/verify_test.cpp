@@ -50,7 +50,7 @@ TEST_F(Verify, EndsWithOneAndAListOtherwiseAndRepairs) {
   EXPECT_EQ(broken.status, 1);
   EXPECT_THAT(broken.out, StartsWith("A2/gazebo_worlds/3.world: cannot be opened: No such file or directory\n"
                                      "A2/plys/2.ply: bytes: found 3, expected "));
-  EXPECT_THAT(broken.out, HasSubstr("; 2 faults\n"));
+  EXPECT_THAT(broken.out, HasSubstr("; 2 faults found\n"));
 
   const auto json = nlohmann::json::parse(verify("--json").out);
   EXPECT_EQ(json["faults"].size(), 2U);

@@ -45,7 +45,7 @@ TEST(Sensor, PresetsAreValidAndOnlyThePapersIsIdeal) {
 TEST(Sensor, NamesTheKeyThatMakesNoSenseAndTheRemedy) {
   EXPECT_THAT(complaint({.sigma = -1}),
               StartsWith("scanner.sigma: found -1, expected at most 1 metre of noise, or 0 for none"));
-  EXPECT_THAT(complaint({.dropout = 1}), StartsWith("scanner.dropout: found 1, expected a share"));
+  EXPECT_THAT(complaint({.dropout = 1}), StartsWith("scanner.dropout: found 1, expected a fraction"));
   EXPECT_THAT(complaint({.baseline = 0}),
               StartsWith("scanner.baseline: found 0, expected a positive distance"));
   EXPECT_THAT(complaint({.baseline = 0}), HasSubstr("shadows = false"));

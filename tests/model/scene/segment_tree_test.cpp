@@ -128,7 +128,7 @@ RC_GTEST_PROP(MisfitOfAnyTree, StaysWhereAnEndIsHidden, ()) {
   const SegmentTree tree = any_tree();
   SegmentTree seen = tree;
   const int last = static_cast<int>(seen.size());
-  TreeSegment& end = seen.back();  // no other segment starts where it ends
+  Segment& end = seen.back();  // no other segment starts where it ends
   RC_ASSERT(end.to == last);
   end.length /= 2;
   RC_ASSERT(misfit(seen, tree) < 1e-12);
