@@ -55,11 +55,7 @@ TEST(TubeSpec, AcceptsTheExtremesThatStillMakeATube) {
 }
 
 TEST(TubeSpec, ForgivesTheRoundingOfThreeTenths) {
-  EXPECT_EQ(complaint_after([](TubeSpec& s) {
-              s.segments[0] = {
-                  .length = 0.3, .cylinders_min = 3, .cylinders_max = 3, .cylinder_length_min = 0.1};
-            }),
-            "none");
+  EXPECT_EQ(complaint_after([](TubeSpec& s) { s.segments[0] = {{.length = 0.3}, 3, 3, 0.1}; }), "none");
 }
 
 TEST(TubeSpec, NamesASizeThatIsNotPositive) {
