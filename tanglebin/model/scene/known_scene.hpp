@@ -10,7 +10,7 @@ namespace tanglebin {
 
 /// What is known about a kind of tube.
 struct TubeKind {
-  double radius = 0.0125;                ///< m
+  double radius = 0.0125;                 ///< m
   SegmentTree segments = SegmentTree(1);  ///< one for a chain, several for a tree
 
   /// Length of the centre line with all branches, m.
