@@ -147,9 +147,10 @@ std::vector<NamedPicture> pictures(const PointCloud& cloud, const KnownScene& kn
   return {};
 }
 
-void write_pictures(const PointCloud& cloud, const KnownScene& known, const ModelArguments& arguments) {
+void write_pictures(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings,
+                    const ModelArguments& arguments) {
   make_directories(*arguments.debug_directory);
-  for (const auto& [name, picture] : pictures(cloud, known, model_settings(arguments), arguments.cloud)) {
+  for (const auto& [name, picture] : pictures(cloud, known, settings, arguments.cloud)) {
     write_file(std::filesystem::path(*arguments.debug_directory) / (name + ".png"),
                color_png(picture.width, picture.height, picture.pixels));
   }
@@ -167,7 +168,7 @@ void model_cloud(const ModelArguments& arguments) {
     write_configuration(tubes, model.tubes);
     write_output(*arguments.tubes, tubes.str());
   }
-  if (arguments.debug_directory) write_pictures(cloud, known, arguments);
+  if (arguments.debug_directory) write_pictures(cloud, known, settings, arguments);
   if (arguments.out != standard_stream) print_summary(arguments, known, model);
 }
 
