@@ -1,4 +1,4 @@
-// Replaces the room's other sources if the Point Cloud Library is not installed.
+// Replaces the room's sources that need the Point Cloud Library if it is not installed.
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
 
