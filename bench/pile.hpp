@@ -30,7 +30,7 @@ inline Tube chain(Rng& rng, const Bin& bin, int id) {
     if (next.z() < tube.radius) next.z() = position.z() - length * direction.z();
     heading = std::atan2(next.y() - position.y(), next.x() - position.x());
     tube.nodes.push_back({i + 1, next});
-    tube.edges.push_back(edge_between(tube, tube.nodes.size() - 2, tube.nodes.size() - 1, i));
+    tube.edges.push_back({tube.nodes.size() - 2, tube.nodes.size() - 1, i});
     position = next;
   }
   return tube;

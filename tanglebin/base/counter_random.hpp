@@ -15,6 +15,11 @@ constexpr std::uint64_t mix_bits(std::uint64_t x) {
 /// about 1e-16.
 double normal_quantile(double p);
 
+/// Spreads all 64-bit numbers evenly over (0, 1), both ends excluded.
+constexpr double between_0_and_1(std::uint64_t bits) {
+  return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52;
+}
+
 /// Random numbers looked up by a counter. Number i of a stream is SplitMix64's i-th output, so it does not
 /// depend on which other numbers are requested, or in which order. Streams with different seeds or terms are
 /// unrelated.
@@ -26,9 +31,7 @@ public:
   std::uint64_t bits(std::uint64_t counter) const { return mix_bits(key_ + golden * (counter + 1)); }
 
   /// Uniform in (0, 1), both ends excluded.
-  double uniform(std::uint64_t counter) const {
-    return (static_cast<double>(bits(counter) >> 11) + 0.5) * 0x1p-53;
-  }
+  double uniform(std::uint64_t counter) const { return between_0_and_1(bits(counter)); }
 
   /// Standard normal.
   double normal(std::uint64_t counter) const { return normal_quantile(uniform(counter)); }

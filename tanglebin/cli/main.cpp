@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -70,9 +71,18 @@ int run_and_explain(int argc, char** argv) {
   }
 }
 
+// The large buffers of a case are those of the next one. Getting them anew, zeroed by the kernel, takes a
+// twentieth of the time.
+void keep_freed_memory() {
+  constexpr int mebibyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);  // the most that glibc accepts
+  mallopt(M_TRIM_THRESHOLD, 1024 * mebibyte);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   // If the reader of the output exits, this program goes on: it does more than print.
   std::signal(SIGPIPE, SIG_IGN);
   const int status = run_and_explain(argc, argv);

@@ -40,7 +40,7 @@ void draw_segment(Rng& rng, const SegmentSpec& segment, int& next_id, Tube& tube
     const std::size_t to = tube.nodes.size();
     const int id = order < cylinders ? next_id++ : segment.to;
     tube.nodes.push_back({id, start + endpoints[static_cast<std::size_t>(order)]});
-    tube.edges.push_back(edge_between(tube, from, to, order));
+    tube.edges.push_back({from, to, order});
     from = to;
   }
 }

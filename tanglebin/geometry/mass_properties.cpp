@@ -1,6 +1,7 @@
 #include "tanglebin/geometry/mass_properties.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <iterator>
@@ -117,20 +118,32 @@ void add_free_parts(const Line& line, const Interval& rod, double area, const st
   if (low < rod.high) moments.add_rod(line, low, rod.high, area);
 }
 
+// At even steps, in the plane z = 0.
+const std::array<Eigen::Vector3d, azimuths>& unit_circle() {
+  static const auto circle = [] {
+    std::array<Eigen::Vector3d, azimuths> points;
+    for (std::size_t i = 0; i < azimuths; ++i) {
+      const double phi = 2 * std::numbers::pi * static_cast<double>(i) / azimuths;
+      points[i] = {std::cos(phi), std::sin(phi), 0};
+    }
+    return points;
+  }();
+  return circle;
+}
+
 // Adds one capsule without the `filled` ones. Moments are about `origin`.
 void add_capsule(const Tube& tube, const Edge& edge, const Eigen::Vector3d& origin,
                  const std::vector<Capsule>& filled, Moments& moments) {
-  const Eigen::Matrix3d axes = edge.rotation.toRotationMatrix();
+  const auto [centre, rotation, length] = frame_of(tube, edge);
+  const Eigen::Matrix3d axes = rotation.toRotationMatrix();
   std::vector<Interval> taken;
   const auto add_ring = [&](double c, double weight) {
     const double rho = tube.radius * std::sqrt(1 - c * c);
-    const double reach = edge.length / 2 + tube.radius * c;
+    const double reach = length / 2 + tube.radius * c;
     const double area = weight * tube.radius * tube.radius * c * 2 * std::numbers::pi / azimuths;
-    for (int i = 0; i < azimuths; ++i) {
-      const double phi = 2 * std::numbers::pi * i / azimuths;
-      const Eigen::Vector3d across = axes * Eigen::Vector3d(rho * std::cos(phi), rho * std::sin(phi), 0);
-      add_free_parts({edge.centre - origin + across, axes.col(2)}, {-reach, reach}, area, filled, taken,
-                     moments);
+    for (const Eigen::Vector3d& outward : unit_circle()) {
+      const Eigen::Vector3d across = axes * (rho * outward);
+      add_free_parts({centre - origin + across, axes.col(2)}, {-reach, reach}, area, filled, taken, moments);
     }
   };
   for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {  // the rule is on [−1, 1], but c is in [0, 1]

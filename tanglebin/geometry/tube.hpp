@@ -16,16 +16,10 @@ struct Node {
 
 /// A cylinder between two nodes.
 struct Edge {
-  std::size_t from;             ///< index into Tube::nodes
-  std::size_t to;               ///< index into Tube::nodes
-  int order;                    ///< 1, 2, … along its segment
-  Eigen::Vector3d centre;       ///< m, the midpoint of the two nodes
-  Eigen::Quaterniond rotation;  ///< turns +z onto the direction from → to
-  double length;                ///< m
+  std::size_t from;  ///< index into Tube::nodes
+  std::size_t to;    ///< index into Tube::nodes
+  int order;         ///< 1, 2, … along its segment
 };
-
-/// The shortest rotation that turns +z onto a unit vector; about x by π for −z.
-Eigen::Quaterniond rotation_from_z(const Eigen::Vector3d& direction);
 
 /// A tube is a tree of nodes (spheres) and edges (cylinders) of one radius, so its surface is that of a union
 /// of capsules (paper, Section 3, with a sphere at every node as in the published data).
@@ -37,8 +31,16 @@ struct Tube {
   std::vector<Edge> edges;
 };
 
-/// The edge between two nodes of a tube.
-Edge edge_between(const Tube& tube, std::size_t from, std::size_t to, int order);
+/// Where the cylinder of an edge is, which follows from its two nodes.
+struct EdgeFrame {
+  Eigen::Vector3d centre;       ///< m, the midpoint of the two nodes
+  Eigen::Quaterniond rotation;  ///< the shortest that turns +z onto the direction from → to
+  double length;                ///< m, the distance of the two nodes
+};
+EdgeFrame frame_of(const Tube& tube, const Edge& edge);
+
+/// The shortest rotation that turns +z onto a unit vector; about x by π for −z.
+Eigen::Quaterniond rotation_from_z(const Eigen::Vector3d& direction);
 
 /// The capsule of one edge.
 Capsule capsule(const Tube& tube, const Edge& edge);
@@ -55,7 +57,10 @@ Eigen::AlignedBox3d bounds(const Tube& tube);
 /// Moves the tube as a rigid body.
 void transform(Tube& tube, const Eigen::Isometry3d& motion);
 
-/// Rounds positions, lengths and rotations to what the text format holds: nine decimals.
+/// A number to nine decimals, which the text format holds; never a negative zero.
+double to_billionth(double value);
+
+/// Rounds the nodes' positions to whole nanometres, so that the text format holds the tube exactly.
 void round_to_nanometres(Tube& tube);
 
 }  // namespace tanglebin

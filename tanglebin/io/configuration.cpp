@@ -139,20 +139,19 @@ private:
 
   void read_edge(const std::string& what, boost::disjoint_sets_with_storage<>& components) {
     lines_.expect_line(what, edge_fields);
-    Edge edge{.from = read_end(1, "n1"),
-              .to = read_end(2, "n2"),
-              .order = lines_.whole_number(3, "order", 1),
-              .centre = read_point(5, {"cx", "cy", "cz"}),
-              .rotation = {lines_.real_number(8, "qw"), lines_.real_number(9, "qx"),
-                           lines_.real_number(10, "qy"), lines_.real_number(11, "qz")},
-              .length = lines_.positive_number(12, "length")};
+    const Edge edge{
+        .from = read_end(1, "n1"), .to = read_end(2, "n2"), .order = lines_.whole_number(3, "order", 1)};
+    const EdgeFrame frame{.centre = read_point(5, {"cx", "cy", "cz"}),
+                          .rotation = {lines_.real_number(8, "qw"), lines_.real_number(9, "qx"),
+                                       lines_.real_number(10, "qy"), lines_.real_number(11, "qz")},
+                          .length = lines_.positive_number(12, "length")};
     expect_radius(lines_.positive_number(4, "radius"));
     expect_name(edge);
     if (components.find_set(edge.from) == components.find_set(edge.to))
       lines_.fail("n1 n2", fmt::format("{} {}, which closes a loop", id(edge.from), id(edge.to)),
                   "edges that form a tree");
     components.union_set(edge.from, edge.to);
-    expect_agreement(edge);
+    expect_agreement(edge, frame);
     tube_.edges.push_back(edge);
   }
 
@@ -180,24 +179,24 @@ private:
   }
 
   // An edge's centre, length and rotation repeat what its nodes say.
-  void expect_agreement(const Edge& edge) const {
+  void expect_agreement(const Edge& edge, const EdgeFrame& frame) const {
     const Eigen::Vector3d from = tube_.nodes[edge.from].position;
     const Eigen::Vector3d to = tube_.nodes[edge.to].position;
     const Eigen::Vector3d midpoint = (from + to) / 2;
     const Eigen::Vector3d along = to - from;
     const double length = along.norm();
-    if (!((edge.centre - midpoint).norm() <= length_tolerance))
+    if (!((frame.centre - midpoint).norm() <= length_tolerance))
       lines_.fail(
-          "cx cy cz", point(edge.centre),
+          "cx cy cz", point(frame.centre),
           fmt::format("the midpoint of nodes {} and {}, {}", id(edge.from), id(edge.to), point(midpoint)));
-    if (!(std::abs(edge.length - length) <= length_tolerance))
-      lines_.fail("length", fmt::format("{}", edge.length),
+    if (!(std::abs(frame.length - length) <= length_tolerance))
+      lines_.fail("length", fmt::format("{}", frame.length),
                   fmt::format("the distance of nodes {} and {}, {:.6g}", id(edge.from), id(edge.to), length));
-    if (!(std::abs(edge.rotation.norm() - 1) <= unit_tolerance))
-      lines_.fail("qw qx qy qz", fmt::format("a quaternion of norm {:.6g}", edge.rotation.norm()),
+    if (!(std::abs(frame.rotation.norm() - 1) <= unit_tolerance))
+      lines_.fail("qw qx qy qz", fmt::format("a quaternion of norm {:.6g}", frame.rotation.norm()),
                   "a unit quaternion");
     // A direction is only as accurate as its end points.
-    const Eigen::Vector3d turned = edge.rotation * Eigen::Vector3d::UnitZ() * length;
+    const Eigen::Vector3d turned = frame.rotation * Eigen::Vector3d::UnitZ() * length;
     if (!((turned - along).norm() <= std::max(length_tolerance, angle_tolerance * length)))
       lines_.fail("qw qx qy qz", fmt::format("a rotation of +z onto {}", point(turned / length)),
                   fmt::format("the direction from node {} to node {}, {}", id(edge.from), id(edge.to),
@@ -229,11 +228,13 @@ void write_tube(fmt::memory_buffer& text, const Tube& tube) {
   for (const Edge& edge : tube.edges) {
     const int from = tube.nodes[edge.from].id;
     const int to = tube.nodes[edge.to].id;
-    const Eigen::Vector3d& c = edge.centre;
-    const Eigen::Quaterniond& q = edge.rotation;
+    const EdgeFrame frame = frame_of(tube, edge);
     fmt::format_to(out, "e_{}_{} {} {} {} {} ", from, to, from, to, edge.order, tube.radius);
-    fmt::format_to(out, "{} {} {} {} {} {} {} {}\n", c.x(), c.y(), c.z(), q.w(), q.x(), q.y(), q.z(),
-                   edge.length);
+    const Eigen::Vector3d& c = frame.centre;
+    const Eigen::Quaterniond& q = frame.rotation;
+    for (const double value : {c.x(), c.y(), c.z(), q.w(), q.x(), q.y(), q.z()})
+      fmt::format_to(out, "{} ", to_billionth(value));
+    fmt::format_to(out, "{}\n", to_billionth(frame.length));
   }
 }
 

@@ -16,8 +16,8 @@ struct SettleSettings {
   double gravity = 9.8;      ///< m/s²
   double friction = 1.16;    ///< Coulomb, between tubes; against the bin: the smaller of this and the bin's
   double step = 0.002;       ///< s
-  int iterations = 50;       ///< of the contact solver in each step; increased by half ...
-  int iterations_max = 200;  ///< ... up to this, each time a heap fails the test of rest
+  int iterations = 50;       ///< of the contact solver in each step
+  int iterations_max = 200;  ///< the same in the test of rest
   double sor = 1.3;          ///< the solver's over-relaxation
   double erp = 0.2;          ///< fraction of an overlap that is corrected in each step
   double surface_layer = 0.0001;  ///< m, overlap that a resting contact keeps
@@ -44,9 +44,10 @@ struct Settled {
 };
 
 /// Drops `tubes`, which must not overlap, into the bin and integrates until they rest, one has left the bin,
-/// or the time is up. The heap is valid if fault_of_heap() finds no fault. Bodies are never put to sleep. The
-/// same arguments give the same heap. Not thread-safe: ODE has one random generator per process. Throws
-/// InputError for a tube without mass.
+/// or the time is up. The heap is valid if fault_of_heap() finds no fault. One that moves too far in the test
+/// of rest goes on from where the test left it. Bodies are never put to sleep. The same arguments give the
+/// same heap. Not thread-safe: ODE has one random generator per process. Throws InputError for a tube without
+/// mass.
 Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings,
                std::uint64_t seed);
 

@@ -110,9 +110,10 @@ void World::Implementation::add_tube(const Tube& tube) {
   dGeomSetCategoryBits(reinterpret_cast<dGeomID>(nodes), node_bit);
   dGeomSetCollideBits(reinterpret_cast<dGeomID>(nodes), floor_bit);
   for (const Edge& edge : body.tube.edges) {
-    const dGeomID geom = dCreateCapsule(parts, tube.radius, edge.length);
+    const auto [centre, rotation, length] = frame_of(body.tube, edge);
+    const dGeomID geom = dCreateCapsule(parts, tube.radius, length);
     dGeomSetBody(geom, body.id);
-    set_offset(geom, edge.centre, edge.rotation);
+    set_offset(geom, centre, rotation);
   }
   for (const Node& node : body.tube.nodes) {
     const dGeomID geom = dCreateSphere(nodes, tube.radius);
@@ -217,6 +218,31 @@ double World::energy() const {
               body.properties.mass * implementation_->settings.gravity * dBodyGetPosition(body.id)[2];
   }
   return energy;
+}
+
+std::vector<TubeMotion> World::motions() const {
+  std::vector<TubeMotion> motions;
+  for (const Body& body : implementation_->bodies) {
+    const Eigen::Isometry3d start(Eigen::Translation3d(body.properties.centre));
+    motions.push_back({pose(body.id) * start.inverse(), vector(dBodyGetLinearVel(body.id)),
+                       vector(dBodyGetAngularVel(body.id))});
+  }
+  return motions;
+}
+
+void World::move_on(const std::vector<TubeMotion>& motions) {
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const dBodyID body = implementation_->bodies[i].id;
+    const auto& [moved, linear, angular] = motions[i];
+    const Eigen::Isometry3d to = moved * pose(body);
+    const Eigen::Vector3d position = to.translation();
+    const Eigen::Quaterniond rotation = Eigen::Quaterniond(to.linear()).normalized();
+    const dQuaternion q{rotation.w(), rotation.x(), rotation.y(), rotation.z()};
+    dBodySetPosition(body, position.x(), position.y(), position.z());
+    dBodySetQuaternion(body, q);
+    dBodySetLinearVel(body, linear.x(), linear.y(), linear.z());
+    dBodySetAngularVel(body, angular.x(), angular.y(), angular.z());
+  }
 }
 
 std::vector<Tube> World::tubes() const {

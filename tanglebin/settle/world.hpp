@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -15,6 +15,13 @@ namespace tanglebin {
 struct StepSettings {
   int iterations;  ///< of the contact solver
   double damping;  ///< fraction of its linear and angular speed that every tube loses
+};
+
+/// How a tube has moved since its world began, and how fast it is.
+struct TubeMotion {
+  Eigen::Isometry3d moved;  ///< from its first to its current pose, world frame
+  Eigen::Vector3d linear;   ///< m/s, of its centre of mass
+  Eigen::Vector3d angular;  ///< rad/s
 };
 
 /// Rigid tubes and a bin in ODE. Each tube is a body with its true mass and inertia, and a capsule for each
@@ -44,6 +51,12 @@ public:
 
   /// Kinetic and potential energy of all tubes, J. Zero for tubes at rest with their centres at floor height.
   double energy() const;
+
+  /// How each tube has moved.
+  std::vector<TubeMotion> motions() const;
+
+  /// Moves each tube from its current pose as the motion says, and gives it the motion's speeds.
+  void move_on(const std::vector<TubeMotion>& motions);
 
   /// The tubes in their current positions.
   std::vector<Tube> tubes() const;

@@ -200,12 +200,13 @@ void write_inertial(XMLPrinter& xml, const MassProperties& properties) {
 void write_cylinder(XMLPrinter& xml, const Tube& tube, const Edge& edge, const Eigen::Vector3d& origin,
                     const Surface& surface) {
   const std::string name = fmt::format("e_{}_{}", tube.nodes[edge.from].id, tube.nodes[edge.to].id);
+  const EdgeFrame frame = frame_of(tube, edge);
   write_solid(xml, name, surface, [&] {
-    write_pose(xml, edge.centre - origin, edge.rotation.toRotationMatrix());
+    write_pose(xml, frame.centre - origin, frame.rotation.toRotationMatrix());
     const Element geometry(xml, "geometry");
     const Element shape(xml, "cylinder");
     write_number(xml, "radius", tube.radius);
-    write_number(xml, "length", edge.length);
+    write_number(xml, "length", frame.length);
   });
 }
 

@@ -37,7 +37,7 @@ std::vector<Tube> tubes(int count) {
     tube.radius = 0.0125;
     const double y = 0.1 * id;
     tube.nodes = {{1, {0, y, 0}}, {2, {0.5, y, 0}}};
-    tube.edges = {edge_between(tube, 0, 1, 1)};
+    tube.edges = {{0, 1, 1}};
   }
   return result;
 }

@@ -321,20 +321,6 @@ TEST(DrawTube, JoinsTheSegmentsOfATreeAtItsJunctions) {
   }
 }
 
-TEST(DrawTube, PlacesEveryEdgeBetweenItsNodes) {
-  Rng rng(1);
-  for (int i = 0; i < many; ++i) {
-    const Tube tube = draw_tube(rng, chain_spec(45), 1);
-    for (const Edge& edge : tube.edges) {
-      const Vector3d& a = tube.nodes[edge.from].position;
-      const Vector3d& b = tube.nodes[edge.to].position;
-      ASSERT_LT((edge.centre - (a + b) / 2).norm(), rounding);
-      ASSERT_LT((edge.rotation * Vector3d(0, 0, edge.length) - (b - a)).norm(), rounding);
-      ASSERT_EQ(edge.rotation.z(), 0) << "the shortest rotation from z does not turn about z";
-    }
-  }
-}
-
 TEST(DrawTube, NeverPassesThroughItself) {
   Rng rng(1);
   for (const TubeSpec& spec : {chain_spec(120), tree_spec()}) {

@@ -18,7 +18,7 @@ inline double radians(double degrees) {
 
 inline void connect(Tube& tube, std::size_t from, std::size_t to) {
   const int order = static_cast<int>(tube.edges.size()) + 1;
-  tube.edges.push_back(edge_between(tube, from, to, order));
+  tube.edges.push_back({from, to, order});
 }
 
 /// A tube of radius 12.5 mm and 0.5 kg whose centre line runs straight from point to point.

@@ -52,19 +52,18 @@ MassProperties sampled_mass_properties(const Tube& tube) {
   Vector3d first = Vector3d::Zero();
   Matrix3d second = Matrix3d::Zero();
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const Edge& edge = tube.edges[k];
+    const auto [centre, rotation, length] = frame_of(tube, tube.edges[k]);
     std::vector<Capsule> near;  // the capsule itself and those that may share its points
     std::ranges::copy_if(all, std::back_inserter(near),
                          [&](const Capsule& other) { return surface_distance(other, all[k]) <= 0; });
-    const double height = edge.length + 2 * tube.radius;
+    const double height = length + 2 * tube.radius;
     const double sample_volume = pi * tube.radius * tube.radius * height / samples;
     for (int i = 0; i < samples; ++i) {
       const Vector3d fraction = (step * i).unaryExpr([](double x) { return x - std::floor(x); });
       const double rho = tube.radius * std::sqrt(fraction.x());
       const double phi = 2 * pi * fraction.y();
       const double along = (fraction.z() - 0.5) * height;
-      const Vector3d point =
-          edge.centre + edge.rotation * Vector3d(rho * std::cos(phi), rho * std::sin(phi), along);
+      const Vector3d point = centre + rotation * Vector3d(rho * std::cos(phi), rho * std::sin(phi), along);
       const auto holds_point = [&](const Capsule& capsule) {
         return closest_points(point, point, capsule.a, capsule.b).distance <= capsule.radius;
       };
@@ -134,6 +133,7 @@ TEST(MassProperties, CountSharedSpaceOnce) {
   EXPECT_LT(difference(mass_properties(twice).inertia, mass_properties(once).inertia), rounding);
 }
 
+// As exactly as the quadrature, which begins at another place around each cylinder.
 RC_GTEST_PROP(MassProperties, MoveWithTheTube, (std::uint64_t seed)) {
   Rng rng(seed);
   Tube tube = draw_tube(rng, test::chain_spec(45), 1);
@@ -142,10 +142,10 @@ RC_GTEST_PROP(MassProperties, MoveWithTheTube, (std::uint64_t seed)) {
       Eigen::Translation3d(1, -2, 3) * Eigen::AngleAxisd(uniform_real(rng, 0, pi), Vector3d(1, 2, 2) / 3);
   transform(tube, motion);
   const MassProperties after = mass_properties(tube);
-  RC_ASSERT(std::abs(after.volume / before.volume - 1) < 1e-10);
-  RC_ASSERT((after.centre - motion * before.centre).norm() < 1e-10);
+  RC_ASSERT(std::abs(after.volume / before.volume - 1) < 1e-5);
+  RC_ASSERT((after.centre - motion * before.centre).norm() < 1e-6);
   const Matrix3d turned = motion.linear() * before.inertia * motion.linear().transpose();
-  RC_ASSERT(difference(after.inertia, turned) < 1e-9);
+  RC_ASSERT(difference(after.inertia, turned) < 1e-5);
 }
 
 RC_GTEST_PROP(MassProperties, DoNotDependOnWhichEndIsFirst, (std::uint64_t seed)) {

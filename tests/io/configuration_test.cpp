@@ -28,8 +28,8 @@ const std::string two_tubes =
     "2 0.1 0.2 0.1 0.0125\n"
     "1 0 0 0.1 0.0125\n"
     "4 0.1 0 0.1 0.0125\n"
-    "e_1_4 1 4 1 0.0125 0.05 0 0.1 0.707107 0 0.707107 0 0.1\n"
-    "e_4_2 4 2 2 0.0125 0.1 0.1 0.1 0.707107 -0.707107 0 0 0.2\n"
+    "e_1_4 1 4 1 0.0125 0.05 0 0.1 0.707106781 0 0.707106781 0 0.1\n"
+    "e_4_2 4 2 2 0.0125 0.1 0.1 0.1 0.707106781 -0.707106781 0 0 0.2\n"
     "2 2 1\n"
     "1 0 0 0 0.01\n"
     "2 0 0 0.3 0.01\n"
@@ -63,6 +63,21 @@ std::string contents(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+// The text, of each edge only name, nodes, order and radius.
+std::string without_frames(const std::string& text) {
+  constexpr int fields_kept = 5;
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    int field = 0;
+    for (std::string word; fields >> word && (line[0] != 'e' || field < fields_kept); ++field)
+      result += word + ' ';
+    result += '\n';
+  }
+  return result;
+}
+
 std::vector<std::string> words(const std::string& text) {
   std::istringstream in(text);
   return {std::istream_iterator<std::string>(in), {}};
@@ -81,9 +96,6 @@ void expect_same(const Tube& tube, const Tube& other) {
     EXPECT_EQ(tube.edges[i].from, other.edges[i].from);
     EXPECT_EQ(tube.edges[i].to, other.edges[i].to);
     EXPECT_EQ(tube.edges[i].order, other.edges[i].order);
-    EXPECT_EQ(tube.edges[i].centre, other.edges[i].centre);
-    EXPECT_EQ(tube.edges[i].rotation.coeffs(), other.edges[i].rotation.coeffs());
-    EXPECT_EQ(tube.edges[i].length, other.edges[i].length);
   }
 }
 
@@ -102,9 +114,6 @@ TEST(Configuration, ReadsEachFieldIntoItsPlace) {
   EXPECT_EQ(edge.from, 2U);
   EXPECT_EQ(edge.to, 0U);
   EXPECT_EQ(edge.order, 2);
-  EXPECT_EQ(edge.centre, Eigen::Vector3d(0.1, 0.1, 0.1));
-  EXPECT_EQ(edge.rotation.coeffs(), Eigen::Quaterniond(0.707107, -0.707107, 0, 0).coeffs());
-  EXPECT_EQ(edge.length, 0.2);
   EXPECT_EQ(tubes[1].id, 2);
   EXPECT_EQ(tubes[1].radius, 0.01);
 }
@@ -127,13 +136,18 @@ TEST(Configuration, KnowsScenesWithoutTubes) {
   EXPECT_EQ(write({}), "0\n");
 }
 
-TEST(Configuration, GivesEveryPublishedFileBackByteForByte) {
+// Centre, rotation and length of an edge follow from its nodes and are not kept: a file from elsewhere may
+// have them with fewer digits, or the cylinder turned about its own axis.
+TEST(Configuration, GivesEveryPublishedFileBackButForWhatFollowsFromTheNodes) {
   if (!std::filesystem::exists(TANGLEBIN_PUBLISHED)) GTEST_SKIP() << "no " << TANGLEBIN_PUBLISHED;
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(TANGLEBIN_PUBLISHED)) {
     if (entry.path().extension() != ".txt") continue;
     ++files;
-    EXPECT_EQ(write(read_configuration(entry.path())), contents(entry.path())) << entry.path();
+    const std::string text = contents(entry.path());
+    const std::string again = write(read(text));
+    EXPECT_EQ(without_frames(again), without_frames(text)) << entry.path();
+    EXPECT_EQ(write(read(again)), again) << entry.path();
   }
   EXPECT_EQ(files, 10);
 }
@@ -157,12 +171,13 @@ TEST(Configuration, ReadsEveryNumberOfAPublishedFileAsItStandsThere) {
     EXPECT_EQ(tube.nodes.at(edge.from).id, number(line + 1));
     EXPECT_EQ(tube.nodes.at(edge.to).id, number(line + 2));
     EXPECT_EQ(edge.order, number(line + 3));
-    EXPECT_EQ(edge.centre, Eigen::Vector3d(number(line + 5), number(line + 6), number(line + 7)));
-    EXPECT_EQ(edge.rotation.w(), number(line + 8));
-    EXPECT_EQ(edge.rotation.x(), number(line + 9));
-    EXPECT_EQ(edge.rotation.y(), number(line + 10));
-    EXPECT_EQ(edge.rotation.z(), number(line + 11));
-    EXPECT_EQ(edge.length, number(line + 12));
+    const EdgeFrame frame = frame_of(tube, edge);
+    const Eigen::Vector3d centre(number(line + 5), number(line + 6), number(line + 7));
+    const Eigen::Quaterniond rotation(number(line + 8), number(line + 9), number(line + 10),
+                                      number(line + 11));
+    EXPECT_LT((frame.centre - centre).norm(), 2e-6);
+    EXPECT_LT((frame.rotation * Eigen::Vector3d::UnitZ() - rotation * Eigen::Vector3d::UnitZ()).norm(), 1e-4);
+    EXPECT_NEAR(frame.length, number(line + 12), 2e-6);
   }
 }
 
@@ -195,7 +210,7 @@ Tube any_tube(int id) {
   for (std::size_t to = 1; to < tube.nodes.size(); ++to) {
     const std::size_t from = *rc::gen::inRange<std::size_t>(0, to);
     RC_PRE(tube.nodes[from].position != tube.nodes[to].position);
-    tube.edges.push_back(edge_between(tube, from, to, static_cast<int>(to)));
+    tube.edges.push_back({from, to, static_cast<int>(to)});
   }
   return tube;
 }
@@ -268,13 +283,13 @@ TEST(Configuration, NoticesThatThereAreMoreNodesThanAnnounced) {
 
 TEST(Configuration, NoticesThatThereAreFewerEdgesThanAnnounced) {
   EXPECT_EQ(
-      complaint_after("e_4_2 4 2 2 0.0125 0.1 0.1 0.1 0.707107 -0.707107 0 0 0.2\n", ""),
+      complaint_after("e_4_2 4 2 2 0.0125 0.1 0.1 0.1 0.707106781 -0.707106781 0 0 0.2\n", ""),
       "tubes.txt:7: edge 2 of 2: found 3 fields from '2' on, expected 13 fields: name n1 n2 order radius "
       "cx cy cz qw qx qy qz length");
 }
 
 TEST(Configuration, NoticesThatThereAreMoreEdgesThanAnnounced) {
-  const std::string edge = "e_1_4 1 4 1 0.0125 0.05 0 0.1 0.707107 0 0.707107 0 0.1\n";
+  const std::string edge = "e_1_4 1 4 1 0.0125 0.05 0 0.1 0.707106781 0 0.707106781 0 0.1\n";
   EXPECT_EQ(complaint_after("2 2 1\n", edge + "2 2 1\n"),
             "tubes.txt:8: tube 2 of 2: found 13 fields from 'e_1_4' on, expected 3 fields: id nodes edges");
 }
@@ -347,7 +362,7 @@ TEST(Configuration, NamesWhatIsNoFiniteNumber) {
             "tubes.txt:5: x: found '0x1p3', expected a finite number");
   EXPECT_EQ(complaint_after(node, "4.0 0.1 0 0.1 0.0125"),
             "tubes.txt:5: node id: found '4.0', expected a whole number from 1 to 2147483647");
-  EXPECT_EQ(complaint_after("e_4_2 4 2 2 0.0125 0.1 0.1 0.1 0.707107", "e_4_2 4 2 2 0.0125 0.1 0.1 0.1 w"),
+  EXPECT_EQ(complaint_after("e_4_2 4 2 2 0.0125 0.1 0.1 0.1 0.707106781", "e_4_2 4 2 2 0.0125 0.1 0.1 0.1 w"),
             "tubes.txt:7: qw: found 'w', expected a finite number");
   EXPECT_EQ(complaint_after("0 0 0.2\n", "0 0 -0.2\n"),
             "tubes.txt:7: length: found '-0.2', expected a positive number");
@@ -373,8 +388,8 @@ TEST(Configuration, NoticesTextAfterTheLastTube) {
 TEST(Configuration, NoticesEdgesThatAreNoTree) {
   EXPECT_EQ(complaint_after("e_1_4 1 4", "e_1_1 1 1"),
             "tubes.txt:6: n1 n2: found 1 1, which closes a loop, expected edges that form a tree");
-  EXPECT_EQ(complaint_after("e_4_2 4 2 2 0.0125 0.1 0.1 0.1 0.707107 -0.707107 0 0 0.2",
-                            "e_4_1 4 1 2 0.0125 0.05 0 0.1 0.707107 0 -0.707107 0 0.1"),
+  EXPECT_EQ(complaint_after("e_4_2 4 2 2 0.0125 0.1 0.1 0.1 0.707106781 -0.707106781 0 0 0.2",
+                            "e_4_1 4 1 2 0.0125 0.05 0 0.1 0.707106781 0 -0.707106781 0 0.1"),
             "tubes.txt:7: n1 n2: found 4 1, which closes a loop, expected edges that form a tree")
       << "and node 2 is left alone";
 }

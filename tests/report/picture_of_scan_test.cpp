@@ -17,7 +17,7 @@ Tube tube_across() {
             .mass = 0.5,
             .nodes = {{1, {-0.2, 0, 0.1}}, {2, {0.2, 0, 0.1}}},
             .edges = {}};
-  tube.edges.push_back(edge_between(tube, 0, 1, 1));
+  tube.edges.push_back({0, 1, 1});
   return tube;
 }
 

@@ -41,7 +41,7 @@ inline Tube chain(int id, double radius, const std::vector<Vector3d>& points) {
   Tube tube{.id = id, .radius = radius, .mass = 0.5, .nodes = {}, .edges = {}};
   for (std::size_t i = 0; i < points.size(); ++i) {
     tube.nodes.push_back({static_cast<int>(i) + 1, points[i]});
-    if (i > 0) tube.edges.push_back(edge_between(tube, i - 1, i, static_cast<int>(i)));
+    if (i > 0) tube.edges.push_back({i - 1, i, static_cast<int>(i)});
   }
   return tube;
 }

@@ -60,7 +60,7 @@ Tube straight_tube(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   tube.radius = 0.0125;
   tube.mass = 0.5;
   tube.nodes = {{1, from}, {2, to}};
-  tube.edges = {edge_between(tube, 0, 1, 1)};
+  tube.edges = {{0, 1, 1}};
   return tube;
 }
 
@@ -135,18 +135,19 @@ void expect_shape_of(const Tube& tube, const sdf::World& world) {
   ASSERT_EQ(link.CollisionCount(), tube.edges.size() + tube.nodes.size());
   ASSERT_EQ(link.VisualCount(), tube.edges.size() + tube.nodes.size());
   for (const Edge& edge : tube.edges) {
+    const auto [centre, rotation, length] = frame_of(tube, edge);
     const std::string name =
         "e_" + std::to_string(tube.nodes[edge.from].id) + "_" + std::to_string(tube.nodes[edge.to].id);
     const sdf::Collision* collision = link.CollisionByName(name + "_collision");
     const sdf::Visual* visual = link.VisualByName(name + "_visual");
     ASSERT_TRUE(collision != nullptr && visual != nullptr) << name;
     const Eigen::Isometry3d pose = pose_in_world(world, model, *collision);
-    EXPECT_TRUE(pose.translation().isApprox(edge.centre, 1e-12)) << name;
-    EXPECT_TRUE(pose.linear().isApprox(edge.rotation.toRotationMatrix(), 1e-12)) << name;
+    EXPECT_TRUE(pose.translation().isApprox(centre, 1e-12)) << name;
+    EXPECT_TRUE(pose.linear().isApprox(rotation.toRotationMatrix(), 1e-12)) << name;
     EXPECT_TRUE(pose.isApprox(pose_in_world(world, model, *visual))) << name;
-    EXPECT_EQ(collision->Geom()->CylinderShape()->Length(), edge.length);
+    EXPECT_EQ(collision->Geom()->CylinderShape()->Length(), length);
     EXPECT_EQ(collision->Geom()->CylinderShape()->Radius(), tube.radius);
-    EXPECT_EQ(visual->Geom()->CylinderShape()->Length(), edge.length);
+    EXPECT_EQ(visual->Geom()->CylinderShape()->Length(), length);
   }
   for (const Node& node : tube.nodes) {
     const std::string name = "n_" + std::to_string(node.id);

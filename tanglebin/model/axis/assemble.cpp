@@ -51,6 +51,12 @@ std::size_t target_node(LineTree& line, FragmentNodes& fragment, const Link& lin
   return end;
 }
 
+// How far a link's junction lies beyond the end of its fragment, m.
+double distance_beyond(const std::vector<Fragment>& fragments, const Link& link) {
+  if (!link.to.end) return 0;
+  return (link.to.position - fragments[link.to.fragment].ends[*link.to.end].position).norm();
+}
+
 LineTree assemble(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
                   const std::vector<Link>& links, const std::vector<std::size_t>& chosen) {
   LineTree line;
@@ -59,9 +65,14 @@ LineTree assemble(const std::vector<Fragment>& fragments, const std::vector<std:
   std::vector<std::size_t> of_members;
   std::ranges::copy_if(chosen, std::back_inserter(of_members),
                        [&](std::size_t i) { return added.contains(links[i].fragment); });
-  // Junctions first: a link to an end with a junction beyond it starts at the junction.
-  std::stable_partition(of_members.begin(), of_members.end(),
-                        [&](std::size_t i) { return links[i].kind == LinkKind::junction; });
+  // Junctions first, the nearest to their fragment before those beyond them: a link to an end with a junction
+  // beyond it starts at the junction.
+  const auto others = std::stable_partition(of_members.begin(), of_members.end(), [&](std::size_t i) {
+    return links[i].kind == LinkKind::junction;
+  });
+  std::stable_sort(of_members.begin(), others, [&](std::size_t a, std::size_t b) {
+    return distance_beyond(fragments, links[a]) < distance_beyond(fragments, links[b]);
+  });
   for (const std::size_t i : of_members) {
     const Link& link = links[i];
     const std::size_t target = target_node(line, added[link.to.fragment], link);

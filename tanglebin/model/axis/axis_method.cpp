@@ -31,6 +31,19 @@ std::size_t total(const std::vector<AxisSteps>& kinds, Count count) {
   return sum;
 }
 
+// The space that the fragments of all kinds but one fill.
+std::vector<Ball> space_of_other_kinds(const std::vector<AxisSteps>& kinds, const KnownScene& known,
+                                       const AxisSteps& but) {
+  std::vector<Ball> space;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    if (&kinds[i] == &but) continue;
+    for (const Fragment& fragment : kinds[i].fragments) {
+      for (const Eigen::Vector3d& node : fragment.nodes) space.push_back({node, known.kinds[i].radius});
+    }
+  }
+  return space;
+}
+
 std::size_t number_of_votes(const AxisSteps& steps) {
   return static_cast<std::size_t>(
       std::ranges::count_if(steps.votes.votes, [](const Vector3f& vote) { return vote.allFinite(); }));
@@ -47,8 +60,8 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
     for (std::size_t i = 0; i < known.kinds.size(); ++i) step(result.kinds[i], known.kinds[i]);
   };
 
-  const std::vector<std::size_t> cropped = crop(cloud, known.bin, settings.filter);
-  model.filtered = downsample(cropped, ratio, seed);
+  const Cropped cropped = crop(cloud, known.bin, settings.filter);
+  model.filtered = downsample(cropped.kept, ratio, seed);
   const std::vector<Vector3f> points = picked(cloud.points, model.filtered);
   clock.end_step("filter", points.size(), "points");
 
@@ -67,9 +80,10 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   clock.end_step("fragment", total(result.kinds, [](const auto& steps) { return steps.fragments.size(); }),
                  "fragments");
 
-  const RangeImage seen(cloud, known.camera);
+  const RangeImage seen(points_seen(cloud, cropped, model.filtered, ratio, seed), known.camera);
   for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
-    steps.links = find_links(steps.fragments, seen, kind, settings.link);
+    steps.links = find_links(steps.fragments, seen, kind, settings.link,
+                             space_of_other_kinds(result.kinds, known, steps));
     steps.chosen = choose_links(steps.fragments, steps.links, kind, settings.link);
     steps.tubes = linked_fragments(steps.fragments.size(), steps.links, steps.chosen);
   });

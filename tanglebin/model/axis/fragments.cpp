@@ -94,14 +94,16 @@ std::vector<FragmentEnd> ends_of(const Fragment& fragment, const AxisVotes& vote
   for (const std::size_t leaf : leaves(fragment.parents)) {
     const Vector3d& end = fragment.nodes[leaf];
     const Surroundings around = surroundings(end, fragment.points, votes, settings.end_length * radius);
-    Vector3d outward = direction(around, radius, settings);
-    if (outward.dot(around.mean) > 0) outward = -outward;
     const double least = settings.extent_min * radius;
-    ends.push_back({leaf, end + extent(around.votes, outward, least) * outward, outward});
+    const auto add_end = [&](const Vector3d& outward) {
+      ends.push_back({leaf, end + extent(around.votes, outward, least) * outward, outward});
+    };
+    const Vector3d axis = direction(around, radius, settings);
+    const Vector3d outward = axis.dot(around.mean) > 0 ? Vector3d(-axis) : axis;
+    add_end(outward);
+    if (fragment.nodes.size() == 1) add_end(-outward);
   }
-  // A fragment with one node ends there in both directions; one with two may be too short to tell its ends
-  // apart.
-  if (ends.size() == 1) ends.push_back({ends[0].node, ends[0].position, -ends[0].outward});
+  // A fragment with two nodes may be too short to tell its ends apart.
   constexpr std::size_t two_nodes = 2;
   if (fragment.nodes.size() == two_nodes && ends[0].outward.dot(ends[1].outward) > 0) {
     ends[1].outward = -ends[1].outward;

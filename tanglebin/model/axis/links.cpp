@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "tanglebin/model/axis/obstacles.hpp"
 #include "tanglebin/model/scene/angle.hpp"
 
 namespace tanglebin {
@@ -91,41 +90,42 @@ Vector3d on_curve(const FragmentEnd& first, const FragmentEnd& second, double t)
          t * t * (3 - 2 * t) * second.position + t * t * s * gap * second.outward;
 }
 
-// The mean of a non-negative measure over points on the way between two ends: straight or curved, whichever
-// is smaller.
-template <typename Measure>
-double least_mean(const FragmentEnd& first, const FragmentEnd& second, double radius, Measure measure) {
-  const Vector3d way = second.position - first.position;
+/// A way between two ends: places on it, at even steps, without the ends.
+using Way = std::vector<Vector3d>;
+
+// The straight and the curved way.
+std::array<Way, 2> ways_between(const FragmentEnd& first, const FragmentEnd& second, double radius) {
+  const Vector3d gap = second.position - first.position;
   constexpr double step = 0.4;  // radii
-  const int samples = std::clamp(static_cast<int>(way.norm() / (step * radius)) - 1, 1, 16);
-  const auto mean = [&](auto place) {
-    double sum = 0;
-    for (int i = 1; i <= samples; ++i) sum += measure(place(static_cast<double>(i) / (samples + 1)));
-    return sum / samples;
-  };
-  const double straight = mean([&](double t) -> Vector3d { return first.position + t * way; });
-  if (straight == 0) return 0;
-  return std::min(straight, mean([&](double t) { return on_curve(first, second, t); }));
+  const int places = std::clamp(static_cast<int>(gap.norm() / (step * radius)) - 1, 1, 16);
+  std::array<Way, 2> ways;
+  for (int i = 1; i <= places; ++i) {
+    const double t = static_cast<double>(i) / (places + 1);
+    ways[0].emplace_back(first.position + t * gap);
+    ways[1].push_back(on_curve(first, second, t));
+  }
+  return ways;
 }
 
-// The fraction of the gap between two ends on which the sensor saw past a tube.
-double share_seen_empty(const FragmentEnd& first, const FragmentEnd& second, const RangeImage& seen,
-                        double radius) {
-  return least_mean(first, second, radius,
-                    [&](const Vector3d& axis) { return seen.shows_empty(axis, radius) ? 1.0 : 0.0; });
+// The mean of a measure over the places on a way.
+template <typename Measure>
+double mean_on(const Way& way, const Measure& measure) {
+  double sum = 0;
+  for (const Vector3d& place : way) sum += measure(place);
+  return sum / static_cast<double>(way.size());
 }
 
 /// Finds the links between two fragments.
 class LinkFinder {
 public:
   LinkFinder(const std::vector<Fragment>& fragments, const RangeImage& seen, const TubeKind& kind,
-             const LinkSettings& settings)
+             const LinkSettings& settings, const std::vector<Ball>& others)
       : fragments_(fragments),
         seen_(seen),
         kind_(kind),
         settings_(settings),
         length_max_(length_max(kind, settings)),
-        obstacles_(fragments, kind.radius) {
+        obstacles_(fragments, kind.radius, others) {
     if (!kind.branches()) return;
     for (std::size_t i = 0; i < fragments.size(); ++i) {
       places_.push_back(junction_places(fragments, i, kind.radius, settings.beyond_max));
@@ -179,26 +179,41 @@ private:
     return first.length + gap + second.length <= length_max_;
   }
 
-  void take_if_likely(Link link, const FragmentEnd& from, const FragmentEnd& to) {
-    if (link.features[alpha] > settings_.angle_max || !is_likely(link)) return;
-    // Last, because it takes the longest to compute and can only make the link less likely.
-    link.features[seen_empty] = share_seen_empty(from, to, seen_, kind_.radius);
-    if (link.features[seen_empty] > settings_.seen_empty_max || !is_likely(link)) return;
-    link.features[obstruction] = obstruction_of(link, from, to);
-    if (is_likely(link)) links_.push_back(link);
+  // Takes the link by the likelier of its ways. What lies on a way takes the longest to find out, and can
+  // only make the link less likely.
+  void take_if_likely(const Link& link, const FragmentEnd& from, const FragmentEnd& to) {
+    if (link.features[alpha] > settings_.angle_max || weight_of(link, settings_) <= 0) return;
+    std::optional<Link> likeliest;
+    for (const Way& way : ways_between(from, to, kind_.radius)) {
+      const std::optional<Link> by_way = link_by(way, link, from, to);
+      if (by_way && (!likeliest || by_way->weight > likeliest->weight)) likeliest = by_way;
+      if (likeliest && is_free(*likeliest)) break;
+    }
+    if (likeliest) links_.push_back(*likeliest);
   }
 
-  // Weighs a link by the features known so far.
-  bool is_likely(Link& link) const {
+  // The link with the features of a way; none if it is not likely by that way.
+  std::optional<Link> link_by(const Way& way, Link link, const FragmentEnd& from,
+                              const FragmentEnd& to) const {
+    link.features[seen_empty] =
+        mean_on(way, [&](const Vector3d& axis) { return seen_.shows_empty(axis, kind_.radius) ? 1.0 : 0.0; });
+    if (link.features[seen_empty] > settings_.seen_empty_max || weight_of(link, settings_) <= 0)
+      return std::nullopt;
+    link.features[obstruction] = obstruction_of(way, link, from, to);
     link.weight = weight_of(link, settings_);
-    return link.weight > 0;
+    return link.weight > 0 ? std::optional(link) : std::nullopt;
+  }
+
+  static bool is_free(const Link& link) {
+    return link.features[seen_empty] == 0 && link.features[obstruction] == 0;
   }
 
   // Ignores what is near the ends: other pieces of the same tube, and overshoots of a neighbour's centre
   // line.
-  double obstruction_of(const Link& link, const FragmentEnd& from, const FragmentEnd& to) const {
+  double obstruction_of(const Way& way, const Link& link, const FragmentEnd& from,
+                        const FragmentEnd& to) const {
     const double diameter = 2 * kind_.radius;
-    return std::sqrt(least_mean(from, to, kind_.radius, [&](const Vector3d& axis) {
+    return std::sqrt(mean_on(way, [&](const Vector3d& axis) {
       const bool is_near_an_end =
           (axis - from.position).norm() < diameter || (axis - to.position).norm() < diameter;
       return is_near_an_end ? 0 : obstacles_.overlap(axis, link.fragment, link.to.fragment);
@@ -234,8 +249,9 @@ double length_max(const TubeKind& kind, const LinkSettings& settings) {
 }
 
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
-                             const TubeKind& kind, const LinkSettings& settings) {
-  LinkFinder finder(fragments, seen, kind, settings);
+                             const TubeKind& kind, const LinkSettings& settings,
+                             const std::vector<Ball>& others) {
+  LinkFinder finder(fragments, seen, kind, settings, others);
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     for (std::size_t j = 0; j < fragments.size(); ++j) {
       if (i < j) finder.between_ends(i, j);

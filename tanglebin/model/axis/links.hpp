@@ -7,6 +7,7 @@
 
 #include "tanglebin/model/axis/axis_settings.hpp"
 #include "tanglebin/model/axis/fragments.hpp"
+#include "tanglebin/model/axis/obstacles.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"
 #include "tanglebin/model/scene/range_image.hpp"
 
@@ -15,10 +16,10 @@ namespace tanglebin {
 /// The features of a link. Between two ends p and q, let v = q − p, d1 the direction out of the first and d2
 /// that into the second, and α = angle(d1, v) + angle(d2, v) as in the paper's Section 4, or angle(d1, d2) if
 /// the ends are nearer than a radius. The features are: 1; ln(|v| + 2 mm); |v|; α; α²; angle(d1, d2); the
-/// fraction of v on which the sensor saw past a tube; and how far other fragments obstruct v, as the square
-/// root of the mean of Obstacles::overlap() along v, ignoring what is within a diameter of the ends. From an
-/// end to a junction at q, α = angle(d1, v), and angle(d1, d2) is replaced by the distance of q beyond the
-/// end of its fragment, m.
+/// fraction of the way on which the sensor saw past a tube; and how far other fragments obstruct the way, as
+/// the square root of the mean of Obstacles::overlap() along it, ignoring what is within a diameter of the
+/// ends. The way is straight or curved, whichever is likelier. From an end to a junction at q, α = angle(d1,
+/// v), and angle(d1, d2) is replaced by the distance of q beyond the end of its fragment, m.
 inline constexpr std::size_t link_features = 8;
 using LinkFeatures = std::array<double, link_features>;
 
@@ -79,8 +80,9 @@ double length_max(const TubeKind& kind, const LinkSettings& settings);
 
 /// The possible links between fragments of one kind of tube, heaviest first. The settings limit the turn and
 /// the tube's length, and the space between must not have been seen to be empty. For trees, only the
-/// likeliest link from each end to each other fragment.
+/// likeliest link from each end to each other fragment. `others` is the space that tubes of other kinds fill.
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
-                             const TubeKind& kind, const LinkSettings& settings);
+                             const TubeKind& kind, const LinkSettings& settings,
+                             const std::vector<Ball>& others = {});
 
 }  // namespace tanglebin

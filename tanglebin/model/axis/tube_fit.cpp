@@ -152,7 +152,7 @@ Tube tube_of(const LineTree& line, double radius) {
   for (const auto& [from, to] : line.edges) {
     const bool starts_segment = static_cast<std::ptrdiff_t>(from) < named;
     const int order = starts_segment ? 1 : tube.edges.back().order + 1;
-    tube.edges.push_back(edge_between(tube, from, to, order));
+    tube.edges.push_back({from, to, order});
   }
   return tube;
 }

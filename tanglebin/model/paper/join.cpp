@@ -94,7 +94,7 @@ void extend(Tube& tube, const Eigen::Vector3d& to) {
   constexpr int inner_offset = 3;
   const std::size_t added = tube.nodes.size();
   tube.nodes.push_back({static_cast<int>(added) + inner_offset, to});
-  if (added > 0) tube.edges.push_back(edge_between(tube, added - 1, added, static_cast<int>(added)));
+  if (added > 0) tube.edges.push_back({added - 1, added, static_cast<int>(added)});
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, d
   StepClock clock(model.steps);
 
   // Section 4, the filtering step: the crop box of Section 6.2, random downsampling, normals.
-  const std::vector<std::size_t> cropped = crop(cloud, known.bin, settings.filter);
-  model.filtered = downsample(cropped, ratio, seed);
+  const Cropped cropped = crop(cloud, known.bin, settings.filter);
+  model.filtered = downsample(cropped.kept, ratio, seed);
   result.filtered =
       with_normals(cloud, model.filtered, known.camera.pose.translation(), settings.normal_neighbours);
   clock.end_step("filter", model.filtered.size(), "points");
@@ -62,7 +62,7 @@ PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, d
   clock.end_step("fit", result.cylinders.size(), "cylinders");
 
   // The joining step.
-  const RangeImage seen(cloud, known.camera);
+  const RangeImage seen(points_seen(cloud, cropped, model.filtered, ratio, seed), known.camera);
   result.joins = join_cylinders(result.cylinders, seen, kind.length(), settings.join);
   const std::vector<JoinedTube> tubes = joined_tubes(result.cylinders, result.joins, kind.radius);
   for (const JoinedTube& joined : tubes) model.tubes.push_back(joined.tube);

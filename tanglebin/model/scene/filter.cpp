@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "tanglebin/base/picked.hpp"
 #include "tanglebin/base/random.hpp"
 
 namespace tanglebin {
 
-std::vector<std::size_t> crop(const PointCloud& cloud, const Bin& bin, const FilterSettings& settings) {
+Cropped crop(const PointCloud& cloud, const Bin& bin, const FilterSettings& settings) {
   const auto bin_boxes = boxes(bin);
   Eigen::AlignedBox3d around;
   for (const Eigen::AlignedBox3d& box : bin_boxes) around.extend(box);
@@ -19,12 +21,19 @@ std::vector<std::size_t> crop(const PointCloud& cloud, const Bin& bin, const Fil
       return box.squaredExteriorDistance(point) < settings.margin * settings.margin;
     });
   };
-  std::vector<std::size_t> kept;
+  Cropped cropped;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Eigen::Vector3d point = cloud.points[i].cast<double>();
-    if (point.allFinite() && around.contains(point) && !is_of_bin(point)) kept.push_back(i);
+    if (!point.allFinite()) continue;
+    if (!around.contains(point)) {
+      cropped.outside.push_back(i);
+    } else if (is_of_bin(point)) {
+      cropped.bin.push_back(i);
+    } else {
+      cropped.kept.push_back(i);
+    }
   }
-  return kept;
+  return cropped;
 }
 
 // Algorithm S (Knuth, The Art of Computer Programming, volume 2, 3.4.2).
@@ -41,6 +50,16 @@ std::vector<std::size_t> downsample(const std::vector<std::size_t>& indices, dou
     }
   }
   return drawn;
+}
+
+std::vector<Eigen::Vector3f> points_seen(const PointCloud& cloud, const Cropped& cropped,
+                                         const std::vector<std::size_t>& filtered, double ratio,
+                                         std::uint64_t seed) {
+  std::vector<Eigen::Vector3f> seen = picked(cloud.points, filtered);
+  for (const auto& others : {cropped.bin, cropped.outside}) {
+    std::ranges::copy(picked(cloud.points, downsample(others, ratio, seed)), std::back_inserter(seen));
+  }
+  return seen;
 }
 
 }  // namespace tanglebin

@@ -49,15 +49,13 @@ std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::v
   return labels;
 }
 
-std::vector<std::int32_t> label_points(const PointCloud& cloud, const std::vector<std::size_t>& cropped,
+std::vector<std::int32_t> label_points(const PointCloud& cloud, const Cropped& cropped,
                                        const std::vector<std::int32_t>& claimed,
                                        const std::vector<Tube>& tubes, const LabelSettings& settings) {
-  std::vector<std::int32_t> labels(cloud.points.size(), bin_label);
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (!cloud.points[i].allFinite()) labels[i] = null_label;
-  }
+  std::vector<std::int32_t> labels(cloud.points.size(), null_label);
+  for (const std::size_t point : cropped.bin) labels[point] = bin_label;
   std::vector<std::size_t> rest;
-  for (const std::size_t point : cropped) {
+  for (const std::size_t point : cropped.kept) {
     labels[point] = claimed[point];
     if (claimed[point] == null_label) rest.push_back(point);
   }

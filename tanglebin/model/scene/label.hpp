@@ -6,6 +6,7 @@
 
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/geometry/tube.hpp"
+#include "tanglebin/model/scene/filter.hpp"
 #include "tanglebin/model/scene/shared_settings.hpp"
 
 namespace tanglebin {
@@ -15,10 +16,10 @@ namespace tanglebin {
 std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::vector<std::size_t>& points,
                                            const std::vector<Tube>& tubes, const LabelSettings& settings);
 
-/// A label for each point of the cloud: bin_label if the crop removed the point, null_label if it has no
+/// A label for each point of the cloud: bin_label on the bin, null_label outside of the crop and without a
 /// position. Any other point gets its label in `claimed` or, if that is null, the label of the nearest
-/// surface. `cropped` lists the points that the crop kept.
-std::vector<std::int32_t> label_points(const PointCloud& cloud, const std::vector<std::size_t>& cropped,
+/// surface.
+std::vector<std::int32_t> label_points(const PointCloud& cloud, const Cropped& cropped,
                                        const std::vector<std::int32_t>& claimed,
                                        const std::vector<Tube>& tubes, const LabelSettings& settings);
 

@@ -8,11 +8,11 @@
 
 namespace tanglebin {
 
-RangeImage::RangeImage(const PointCloud& cloud, const Camera& camera)
+RangeImage::RangeImage(const std::vector<Eigen::Vector3f>& points, const Camera& camera)
     : camera_(camera),
       depths_(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
               std::numeric_limits<float>::infinity()) {
-  for (const Eigen::Vector3f& point : cloud.points) {
+  for (const Eigen::Vector3f& point : points) {
     if (!point.allFinite()) continue;
     const std::optional<PixelPosition> pixel = pixel_of(camera, point.cast<double>());
     if (!pixel) continue;
@@ -22,43 +22,36 @@ RangeImage::RangeImage(const PointCloud& cloud, const Camera& camera)
   }
 }
 
+// Compared as doubles: the projection of a point beside a near camera may be a number that no integer holds.
+double RangeImage::nearest_in(const Eigen::Vector2d& middle, double reach) const {
+  const auto inside = [](double value, int size) {
+    return static_cast<std::ptrdiff_t>(std::clamp(value, 0.0, static_cast<double>(size)));
+  };
+  const auto left = inside(std::round(middle.x()) - reach, camera_.width);
+  const auto right = inside(std::round(middle.x()) + reach + 1, camera_.width);  // one past the last
+  const auto top = inside(std::round(middle.y()) - reach, camera_.height);
+  const auto bottom = inside(std::round(middle.y()) + reach + 1, camera_.height);
+  float nearest = std::numeric_limits<float>::infinity();
+  for (auto v = top; v < bottom; ++v) {
+    const auto row = depths_.begin() + v * camera_.width;
+    for (auto depth = row + left; depth < row + right; ++depth) nearest = std::min(nearest, *depth);
+  }
+  return nearest;
+}
+
 bool RangeImage::hides(const Eigen::Vector3d& first, const Eigen::Vector3d& second, int radius) const {
   const std::optional<Eigen::Vector2d> first_image = project(camera_, first);
   const std::optional<Eigen::Vector2d> second_image = project(camera_, second);
   if (!first_image || !second_image) return false;
   const Eigen::Vector2d middle = (*first_image + *second_image) / 2;
-  const double farther = std::max(depth_of(camera_, first), depth_of(camera_, second));
-
-  const auto clamped = [](double value, int size) {
-    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size - 1)));
-  };
-  const int left = clamped(std::round(middle.x()) - radius, camera_.width);
-  const int right = clamped(std::round(middle.x()) + radius, camera_.width);
-  const int top = clamped(std::round(middle.y()) - radius, camera_.height);
-  const int bottom = clamped(std::round(middle.y()) + radius, camera_.height);
-  for (int v = top; v <= bottom; ++v) {
-    const auto row = depths_.begin() + static_cast<std::ptrdiff_t>(v) * camera_.width;
-    if (std::any_of(row + left, row + right + 1, [&](float depth) { return depth < farther; })) return true;
-  }
-  return false;
+  return nearest_in(middle, radius) < std::max(depth_of(camera_, first), depth_of(camera_, second));
 }
 
 bool RangeImage::shows_empty(const Eigen::Vector3d& axis, double radius) const {
   const std::optional<Eigen::Vector2d> image = project(camera_, axis);
   if (!image) return false;
   const double depth = depth_of(camera_, axis);
-  const int window = std::max(1, static_cast<int>(radius * camera_.fx / depth / 3));
-  const Eigen::Vector2d pixel = image->array().round();
-  const int column = static_cast<int>(pixel.x());
-  const int row = static_cast<int>(pixel.y());
-  float nearest = std::numeric_limits<float>::infinity();
-  for (int v = std::max(0, row - window); v <= std::min(camera_.height - 1, row + window); ++v) {
-    for (int u = std::max(0, column - window); u <= std::min(camera_.width - 1, column + window); ++u) {
-      nearest =
-          std::min(nearest, depths_[static_cast<std::size_t>(v) * static_cast<std::size_t>(camera_.width) +
-                                    static_cast<std::size_t>(u)]);
-    }
-  }
+  const double nearest = nearest_in(*image, std::max(1.0, std::floor(radius * camera_.fx / depth / 3)));
   return std::isfinite(nearest) && nearest > depth - radius / 2;
 }
 

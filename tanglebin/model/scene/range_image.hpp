@@ -3,15 +3,15 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/geometry/camera.hpp"
 
 namespace tanglebin {
 
-/// The range that the camera measured in each pixel, from a cloud that it took.
+/// The range that the camera measured in each pixel, from points that it saw.
 class RangeImage {
 public:
-  RangeImage(const PointCloud& cloud, const Camera& camera);
+  /// Points are in m, world frame. Those that are not finite or not in the image are left out.
+  RangeImage(const std::vector<Eigen::Vector3f>& points, const Camera& camera);
 
   /// True if the camera saw something nearer than the farther of two points (m, world frame) within `radius`
   /// pixels of the midpoint of their projections. False if a point is not in front of the camera.
@@ -22,6 +22,9 @@ public:
   bool shows_empty(const Eigen::Vector3d& axis, double radius) const;
 
 private:
+  // The smallest depth within `reach` pixels of a place in the image, ∞ if there is none. m
+  double nearest_in(const Eigen::Vector2d& middle, double reach) const;
+
   Camera camera_;
   std::vector<float> depths_;  ///< m, of the nearest point, row by row; ∞ where there is none
 };

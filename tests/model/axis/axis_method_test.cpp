@@ -39,7 +39,7 @@ Tube star(const std::vector<Vector3d>& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     tube.nodes.push_back({static_cast<int>(i) + 1, nodes[i]});
     if (i == 0) continue;
-    tube.edges.push_back(edge_between(tube, 0, i, 1));
+    tube.edges.push_back({0, i, 1});
   }
   return tube;
 }

@@ -60,6 +60,20 @@ TEST(Fragments, EndWhereTheVotesEndAndPointOutwards) {
   EXPECT_LT((last.outward - way).norm(), 0.02);
 }
 
+// So short that its centre line has one node.
+TEST(Fragments, OfOneNodeHaveAnEndOnEitherSide) {
+  AxisVotes votes;
+  add_axis(votes, {-0.003, 0, 0.05}, {0.003, 0, 0.05});
+  const std::vector<Fragment> found = fragments_of(votes);
+  ASSERT_THAT(found, SizeIs(1));
+  ASSERT_THAT(found[0].nodes, SizeIs(1));
+  ASSERT_THAT(found[0].ends, SizeIs(2));
+  const auto& [first, second] = std::tie(found[0].ends[0], found[0].ends[1]);
+  EXPECT_EQ(first.outward, -second.outward);
+  EXPECT_NEAR((first.position - second.position).norm(), 0.006, 0.002);
+  EXPECT_GT((first.position - second.position).dot(first.outward), 0);
+}
+
 TEST(Fragments, OfTubesThatTouchAreTwo) {
   AxisVotes votes;
   add_axis(votes, {-0.1, 0, 0.05}, {0.1, 0, 0.05});

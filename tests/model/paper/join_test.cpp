@@ -31,11 +31,11 @@ RangeImage lid() {
   for (float x = -0.4F; x < 0.4F; x += 0.001F) {
     for (float y = -0.3F; y < 0.3F; y += 0.001F) cloud.points.emplace_back(x, y, 0.6F);
   }
-  return {cloud, camera()};
+  return {cloud.points, camera()};
 }
 
 RangeImage nothing_seen() {
-  return {PointCloud{}, camera()};
+  return {{}, camera()};
 }
 
 TEST(JoinMeasures, AreDistanceAndTurnsOfTheFormula) {

@@ -14,30 +14,39 @@ using test::cloud_of;
 using test::small_camera;
 
 TEST(RangeImage, HidesAWayUnderWhatIsNearerThanItsFartherEnd) {
-  const RangeImage image(cloud_of({{0, 0, 0.5F}}), small_camera());
+  const RangeImage image(cloud_of({{0, 0, 0.5F}}).points, small_camera());
   EXPECT_TRUE(image.hides({-0.03, 0, 0.1}, {0.03, 0, 0.1}, 2));
   EXPECT_TRUE(image.hides({-0.03, 0, 0.7}, {0.03, 0, 0.4}, 2)) << "nearer than one of them is enough";
   EXPECT_FALSE(image.hides({-0.03, 0, 0.7}, {0.03, 0, 0.7}, 2)) << "both ends are above it";
 }
 
 TEST(RangeImage, LooksOnlyAroundTheMiddle) {
-  const RangeImage image(cloud_of({{0, 0, 0.5F}}), small_camera());
+  const RangeImage image(cloud_of({{0, 0, 0.5F}}).points, small_camera());
   // The middle's projection is 5 pixels from that of the point.
   EXPECT_FALSE(image.hides({0.01, -0.02, 0}, {0.01, 0.02, 0}, 4));
   EXPECT_TRUE(image.hides({0.01, -0.02, 0}, {0.01, 0.02, 0}, 5));
 }
 
 TEST(RangeImage, KeepsTheNearestOfSeveralPointsInAPixel) {
-  const RangeImage image(cloud_of({{0, 0, 0.1F}, {0, 0, 0.5F}, {0, 0, 0.2F}}), small_camera());
+  const RangeImage image(cloud_of({{0, 0, 0.1F}, {0, 0, 0.5F}, {0, 0, 0.2F}}).points, small_camera());
   EXPECT_TRUE(image.hides({-0.01, 0, 0.4}, {0.01, 0, 0.4}, 1));
 }
 
 TEST(RangeImage, OfNothingHidesNothing) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const RangeImage image(cloud_of({{nan, nan, nan}, {0, 0, 5}, {90, 0, 0}}), small_camera());
+  const RangeImage image(cloud_of({{nan, nan, nan}, {0, 0, 5}, {90, 0, 0}}).points, small_camera());
   EXPECT_FALSE(image.hides({-0.01, 0, 0.1}, {0.01, 0, 0.1}, 50));
   EXPECT_FALSE(image.hides({-0.01, 0, 3}, {0.01, 0, 0.1}, 50)) << "an end behind the camera";
   EXPECT_FALSE(image.hides({-9, 0, 0.1}, {-9, 0, 0.2}, 3)) << "a middle outside of the image";
+}
+
+TEST(RangeImage, OfAPlaceBesideTheCameraShowsNothing) {
+  const Camera camera = small_camera();
+  const RangeImage image(cloud_of({{0, 0, 0.5F}}).points, camera);
+  // Its projection is some 1e20 pixels away.
+  const Vector3d beside = camera.pose * Vector3d(1, 0, 1e-18);
+  EXPECT_FALSE(image.shows_empty(beside, 0.0125));
+  EXPECT_FALSE(image.hides(beside, beside, 2));
 }
 
 }  // namespace
