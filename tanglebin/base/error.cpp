@@ -19,4 +19,7 @@ InputError::InputError(const InputPlace& place, const std::string& problem)
 InputError::InputError(const InputPlace& place, const std::string& found, const std::string& expected)
     : InputError(place, "found " + found + ", expected " + expected) {}
 
+SystemError::SystemError(const std::string& file, const std::string& problem)
+    : SystemError(message({.file = file}, problem)) {}
+
 }  // namespace tanglebin

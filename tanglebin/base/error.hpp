@@ -30,6 +30,16 @@ private:
   std::string problem_;
 };
 
+/// The system refused what was right to ask: the disk is full, a file may not be written, … The same may work
+/// later. The program prints what(), "file: problem", on one line and exits with 5.
+class SystemError : public std::runtime_error {
+public:
+  SystemError(const std::string& file, const std::string& problem);
+
+  /// With what() of another.
+  explicit SystemError(const std::string& what) : std::runtime_error(what) {}
+};
+
 /// Calls `call`, and adds this file to an InputError that names none.
 template <typename Call>
 auto with_file(const std::string& file, Call call) {

@@ -11,6 +11,7 @@
 
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/exit_status.hpp"
 #include "tanglebin/cli/many_cases.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
@@ -118,7 +119,7 @@ void experiment(const ExperimentArguments& arguments) {
   for (const FailedModel& failed : summary.failed) {
     print_error("tanglebin: {}: failed: {}\n", name_of(failed.id), failed.reason);
   }
-  if (summary.was_stopped()) throw CLI::RuntimeError(exit_interrupted);
+  if (summary.was_stopped()) throw CLI::RuntimeError(exit_interrupted());
   if (!summary.failed.empty()) throw CLI::RuntimeError(exit_cases_failed);
 }
 
@@ -148,6 +149,7 @@ void add_experiment(CLI::App& app) {
   command->footer(
       "Example:\n  tanglebin experiment dataset --out results --downsample 0.3 --tubes 10 --cases 1-3\n"
       "Ctrl-C finishes the cases in progress; run the same command again to resume.\n"
+      "Exit status: 3 if cases failed, 130 if interrupted.\n"
       "Formats: docs/formats.md.");
   command->callback([arguments] { experiment(*arguments); });
 }

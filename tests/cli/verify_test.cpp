@@ -42,12 +42,12 @@ TEST_F(Verify, EndsWithZeroWhereNothingIsWrong) {
   }
 }
 
-TEST_F(Verify, EndsWithOneAndAListOtherwiseAndRepairs) {
+TEST_F(Verify, EndsWithFourAndAListOtherwiseAndRepairs) {
   const auto whole = nlohmann::json::parse(verify("--json").out);
   write_bytes(path("dataset/A2/plys/2.ply"), "ply");
   std::filesystem::remove(path("dataset/A2/gazebo_worlds/3.world"));
   const ProgramResult broken = verify();
-  EXPECT_EQ(broken.status, 1);
+  EXPECT_EQ(broken.status, 4);
   EXPECT_THAT(broken.out, StartsWith("A2/gazebo_worlds/3.world: cannot be opened: No such file or directory\n"
                                      "A2/plys/2.ply: bytes: found 3, expected "));
   EXPECT_THAT(broken.out, HasSubstr("; 2 faults found\n"));
@@ -65,7 +65,7 @@ TEST_F(Verify, EndsWithOneAndAListOtherwiseAndRepairs) {
 TEST_F(Verify, SaysAfterARepairWhatIsStillWrong) {
   write_bytes(path("dataset/A2/plys/77.ply"), "of nobody");
   const ProgramResult result = verify("--repair");
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 4);
   EXPECT_THAT(result.out, StartsWith("A2/plys/77.ply: not in the manifest\n"));
 }
 

@@ -5,23 +5,23 @@
 
 #include <algorithm>
 #include <csignal>
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/experiment/results.hpp"
 #include "tanglebin/runs/file_lock.hpp"
 #include "tests/experiment/small_dataset.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
 
 using test::bytes_of;
+using test::complaint;
 using test::files_below;
 using test::SmallDataset;
 using test::TemporaryDirectory;
@@ -33,15 +33,6 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
-}
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 class RunExperiment : public testing::Test {
@@ -184,7 +175,7 @@ TEST_F(RunExperiment, AnotherExperimentIsNotLetIn) {
   run(results, {{"A", 1, 1}});
   const auto before = files_below(results.path());
   const auto expect_refused = [&](const std::string& difference) {
-    EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("experiment.json: " + difference));
+    EXPECT_THAT(complaint([&] { run(results); }), HasSubstr("experiment.json: " + difference));
     EXPECT_EQ(files_below(results.path()), before);
   };
   settings_.model.seed = 6;
@@ -203,7 +194,7 @@ TEST_F(RunExperiment, AnotherExperimentIsNotLetIn) {
 TEST_F(RunExperiment, ADatasetIsNotWrittenInto) {
   const auto before = files_below(dataset_ / "");
   const Dataset dataset = dataset_.read();
-  EXPECT_THAT(error_of([&] { run_experiment(dataset, settings_, cases(dataset), dataset.directory, 1); }),
+  EXPECT_THAT(complaint([&] { run_experiment(dataset, settings_, cases(dataset), dataset.directory, 1); }),
               HasSubstr("found a dataset, expected a directory for results"));
   EXPECT_EQ(files_below(dataset_ / ""), before);
 }
@@ -212,7 +203,7 @@ TEST_F(RunExperiment, OneRunAtATime) {
   const TemporaryDirectory results;
   const auto other = FileLock::take(results / "journal.jsonl");
   ASSERT_TRUE(other.has_value());
-  EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("another run is writing here"));
+  EXPECT_THAT(complaint([&] { run(results); }), HasSubstr("another run is writing here"));
 }
 
 TEST_F(RunExperiment, AMissingCloudIsAnErrorThatNamesItAndLosesNoFinishedCase) {
@@ -221,7 +212,7 @@ TEST_F(RunExperiment, AMissingCloudIsAnErrorThatNamesItAndLosesNoFinishedCase) {
   run(whole);
   const std::string cloud = bytes_of(dataset_ / "A1/plys/3.ply");
   std::filesystem::remove(dataset_ / "A1/plys/3.ply");
-  EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("A1/plys/3.ply: cannot be opened"));
+  EXPECT_THAT(complaint([&] { run(results); }), HasSubstr("A1/plys/3.ply: cannot be opened"));
   write_bytes(dataset_ / "A1/plys/3.ply", cloud);
   EXPECT_EQ(run(results).progress.found, 2U);
   EXPECT_EQ(results_in(results), results_in(whole));
@@ -232,7 +223,7 @@ TEST_F(RunExperiment, ACloudThatHasChangedIsAnErrorThatNamesIt) {
   std::string bytes = bytes_of(dataset_ / "A3/plys/1.ply");
   bytes.back() ^= 1;
   write_bytes(dataset_ / "A3/plys/1.ply", bytes);
-  EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("A3/plys/1.ply: sha256: found "));
+  EXPECT_THAT(complaint([&] { run(results); }), HasSubstr("A3/plys/1.ply: sha256: found "));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/temporary_directory.hpp"
 
@@ -159,6 +160,11 @@ TEST_F(SafeFile, ADirectoryThatIsMissingOrAFileIsAnErrorThatSaysSo) {
 TEST_F(SafeFile, ADirectoryThatTakesNoFilesIsAnErrorThatSaysSo) {
   EXPECT_THAT(complaint([] { write_file("/proc/self/fdinfo/1.ply", "x"); }),
               AllOf(HasSubstr("/proc/self/fdinfo/1.ply: cannot write: ")));
+}
+
+TEST_F(SafeFile, AWrongPathIsBadInputAndAFullDeviceARefusalOfTheSystem) {
+  EXPECT_THROW(write_file(directory_ / "missing" / "1.ply", "x"), InputError);
+  EXPECT_THROW(write_file("/dev/full", "x"), SystemError);
 }
 
 TEST_F(SafeFile, ManyWritersOfOneFileEachWriteAWholeOne) {
