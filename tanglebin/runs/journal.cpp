@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -128,11 +127,9 @@ std::vector<Journal> abandoned_journals(const fs::path& directory) {
 
 void for_each_whole_line(const fs::path& file,
                          const std::function<void(const std::string&, std::size_t)>& take) {
-  std::optional<std::ifstream> in = open_if_there(file);
-  if (!in) return;
-  std::string line;
-  for (std::size_t number = 1; std::getline(*in, line) && !in->eof(); ++number) take(line, number);
-  expect_read(*in, file);
+  for_each_line(file, [&](const FileLine& line) {
+    if (line.is_whole) take(line.text, line.number);
+  });
 }
 
 void for_each_readable_line(const fs::path& file,

@@ -185,7 +185,7 @@ TEST(Lines, OfAFileThatIsThereButCannotBeReadAreAnError) {
             (directory / "file").string() + ": cannot be opened: Too many levels of symbolic links");
   std::filesystem::remove(directory / "file");
   std::filesystem::create_directory(directory / "file");
-  EXPECT_EQ(complaint(read), (directory / "file").string() + ": cannot be read: Is a directory");
+  EXPECT_EQ(complaint(read), (directory / "file").string() + ": found a directory, expected a regular file");
 }
 
 }  // namespace
