@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -16,6 +18,7 @@
 #include "tanglebin/runs/file_lock.hpp"
 #include "tests/experiment/small_dataset.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/processes.hpp"
 
 namespace tanglebin {
 namespace {
@@ -23,6 +26,7 @@ namespace {
 using test::bytes_of;
 using test::complaint;
 using test::files_below;
+using test::finely_seen_recipe;
 using test::SmallDataset;
 using test::TemporaryDirectory;
 using test::write_bytes;
@@ -90,9 +94,9 @@ TEST_F(RunExperiment, ALineHasWhatModellingAndScoringTheCaseGive) {
   const Dataset dataset = dataset_.read();
   const RunId id{Method::paper, {"A", 3, 2}, 0.6};
   const CaseData data = read_case(dataset, id.scene);
-  const Model model = model_case(dataset, data, id, settings_);
+  const Model model = model_case(known_scene(recipe_of(dataset, id.scene), id.scene), data, id, settings_);
   EXPECT_EQ(lines_of(bytes_of(results / "results.jsonl")).at(0),
-            result_json(id, model, score_model(data, model)));
+            result_json(id, case_sha256(dataset, id.scene), model, score_model(data, model)));
 }
 
 TEST_F(RunExperiment, SaysWhatTheResultsFollowFromAndHowLongTheDatasetTook) {
@@ -168,6 +172,125 @@ TEST_F(RunExperiment, AnInterruptedRunGoesOnLater) {
   EXPECT_FALSE(std::filesystem::exists(parts / "journal.jsonl"));
   EXPECT_EQ(run(parts).progress.found, first.progress.made);
   EXPECT_EQ(results_in(parts), results_in(whole));
+}
+
+/// What each line of results.jsonl says has failed, and how often.
+std::map<std::string, int> failures_in(const TemporaryDirectory& results) {
+  std::map<std::string, int> failures;
+  for (const std::string& line : lines_of(bytes_of(results / "results.jsonl"))) {
+    const auto json = nlohmann::json::parse(line);
+    if (!json.contains("failure")) continue;
+    EXPECT_FALSE(json.contains("micro_recall"));
+    ++failures[json.at("failure_of").get<std::string>() + ": " + json.at("failure").get<std::string>()];
+  }
+  return failures;
+}
+
+TEST_F(RunExperiment, ACaseWithoutAVisibleTubeIsALineForEachRunAndNotTriedAgain) {
+  const SmallDataset aside(finely_seen_recipe(30));
+  const TemporaryDirectory results;
+  const auto run_aside = [&] {
+    return run_experiment(aside.read(), settings_, cases(aside.read()), results.path(), 1);
+  };
+  EXPECT_TRUE(run_aside().is_complete());
+  const auto runs = static_cast<int>(6 * settings_.methods.size() * 2);
+  EXPECT_EQ(failures_in(results),
+            (std::map<std::string, int>{{"scene: no point of the cloud is on a tube", runs}}));
+  const auto before = files_below(results.path());
+  EXPECT_EQ(run_aside().progress.found, 6U);
+  EXPECT_EQ(files_below(results.path()), before);
+}
+
+TEST_F(RunExperiment, ACaseThatAMethodCannotModelIsALineAndTheOtherMethodsGoOn) {
+  Recipe recipe = finely_seen_recipe();
+  recipe.sets[0].kinds.push_back(recipe.sets[0].kinds[0]);
+  recipe.sets[0].kinds[1].radius = 0.009;
+  const SmallDataset two_radii(recipe);
+  const TemporaryDirectory results;
+  const ExperimentSummary summary =
+      run_experiment(two_radii.read(), settings_, {{"A", 3, 1}}, results.path(), 1);
+  EXPECT_TRUE(summary.is_complete());
+  EXPECT_EQ(failures_in(results),
+            (std::map<std::string, int>{
+                {"method: method: the paper's method handles a single radius; use --method axis", 2}}));
+  EXPECT_EQ(lines_of(bytes_of(results / "results.jsonl")).size(), settings_.methods.size() * 2);
+}
+
+/// A process that kills every other child of this one, until it goes.
+class KillerOfWorkers {
+public:
+  KillerOfWorkers() : process_(fork()) {
+    while (process_ == 0) {
+      for (const pid_t child : test::children_of(getppid())) {
+        if (child != getpid()) kill(child, SIGKILL);
+      }
+    }
+  }
+  ~KillerOfWorkers() {
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+  }
+  KillerOfWorkers(const KillerOfWorkers&) = delete;
+  KillerOfWorkers& operator=(const KillerOfWorkers&) = delete;
+
+private:
+  pid_t process_;
+};
+
+TEST_F(RunExperiment, ACaseThatCrashesIsALineForEachRunUntilALaterRunCanModelIt) {
+  const TemporaryDirectory whole;
+  const TemporaryDirectory results;
+  run(whole, {{"A", 1, 1}});
+  {
+    const KillerOfWorkers killer;
+    const ExperimentSummary summary = run(results, {{"A", 1, 1}});
+    EXPECT_FALSE(summary.is_complete());
+    EXPECT_EQ(summary.progress.failed, 1U);
+  }
+  const auto runs = static_cast<int>(settings_.methods.size() * 2);
+  EXPECT_EQ(
+      failures_in(results),
+      (std::map<std::string, int>{{"worker: its worker was ended by signal 9, the second time", runs}}));
+  EXPECT_EQ(run(results, {{"A", 1, 1}}).progress.made, 1U);
+  EXPECT_EQ(results_in(results), results_in(whole));
+}
+
+TEST_F(RunExperiment, ACaseThatIsAnotherSceneNowIsModelledAgain) {
+  const TemporaryDirectory results;
+  run(results);
+  const std::string before = bytes_of(dataset_ / "A3/plys/1.ply");
+  std::string after = before;
+  after[after.size() - 5] ^= 1;  // the blue of the last point, before its label
+  write_bytes(dataset_ / "A3/plys/1.ply", after);
+  std::string manifest = bytes_of(dataset_ / "manifest.jsonl");
+  manifest.replace(manifest.find(sha256(before)), sha256(before).size(), sha256(after));
+  write_bytes(dataset_ / "manifest.jsonl", manifest);
+
+  EXPECT_EQ(run(results).progress.made, 1U);
+  const TemporaryDirectory anew;
+  run(anew);
+  EXPECT_EQ(results_in(results), results_in(anew));
+}
+
+TEST_F(RunExperiment, ResultsOfACaseThatTheDatasetLacksAreNotMixedWithItsOwn) {
+  const TemporaryDirectory results;
+  run(results, {{"A", 1, 1}, {"A", 1, 2}});
+  const std::string manifest = bytes_of(dataset_ / "manifest.jsonl");
+  write_bytes(dataset_ / "manifest.jsonl", manifest.substr(manifest.find('\n') + 1));
+  EXPECT_THAT(complaint([&] { run(results); }),
+              HasSubstr("A1/1: the dataset lacks this case, which the results have"));
+}
+
+TEST_F(RunExperiment, AnotherBuildOfTheProgramIsNotLetIn) {
+  const TemporaryDirectory results;
+  run(results, {{"A", 1, 1}});
+  auto experiment = nlohmann::ordered_json::parse(bytes_of(results / "experiment.json"));
+  EXPECT_EQ(experiment.at("program_sha256"), sha256(bytes_of("/proc/self/exe")));
+  experiment["program_sha256"] = "of another";
+  write_bytes(results / "experiment.json", experiment.dump() + '\n');
+  EXPECT_THAT(complaint([&] { run(results); }),
+              HasSubstr("program_sha256: the directory belongs to another build of the program: it has "
+                        "\"of another\", this one "));
 }
 
 TEST_F(RunExperiment, AnotherExperimentIsNotLetIn) {
