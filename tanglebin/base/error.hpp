@@ -14,7 +14,8 @@ struct InputPlace {
 };
 
 /// Bad input: a file, a recipe or a parameter. The program prints what() on one line and exits with 2. what()
-/// reads "file:line: field: problem", where the problem is "found …, expected …" or a plain sentence.
+/// reads "file:line: field: problem", where the problem is "found …, expected …" or a plain sentence. It is
+/// printable() (text.hpp); place and problem are as given.
 class InputError : public std::runtime_error {
 public:
   InputError(const InputPlace& place, const std::string& problem);

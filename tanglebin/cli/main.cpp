@@ -7,6 +7,8 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <sstream>
+#include <string>
 #include <system_error>
 
 #include "tanglebin/base/error.hpp"
@@ -42,7 +44,9 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);  // runs the chosen command's callback
   } catch (const CLI::ParseError& error) {
     // A RuntimeError carries the exit status that a command chose; anything else is wrong usage.
-    const int status = app.exit(error);
+    std::stringstream complaints;
+    const int status = app.exit(error, std::cout, complaints);
+    for (std::string line; std::getline(complaints, line);) print_error("{}\n", line);
     const bool is_usage = dynamic_cast<const CLI::RuntimeError*>(&error) == nullptr;
     return status != 0 && is_usage ? exit_usage : status;
   }
