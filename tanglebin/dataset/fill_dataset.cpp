@@ -213,8 +213,8 @@ CaseWriter::CaseWriter(fs::path directory, fs::path staging)
     : directory_(std::move(directory)), staging_(std::move(staging)) {}
 
 FileRecord CaseWriter::write(const std::string& path, std::string_view bytes) const {
-  make_directories((directory_ / path).parent_path());
   expect_below(directory_, directory_ / path);
+  make_directories((directory_ / path).parent_path());
   write_staged(directory_ / path, bytes, staging_);
   return {path, bytes.size(), sha256(bytes)};
 }

@@ -207,7 +207,7 @@ void expect_below(const std::filesystem::path& directory, const std::filesystem:
   std::error_code error;
   const fs::path top = fs::canonical(directory, error);
   if (error) throw_refusal(directory, "cannot be opened", error);
-  const fs::path folder = fs::canonical(directory_of(file), error);
+  const fs::path folder = fs::weakly_canonical(directory_of(file), error);
   if (error) throw_refusal(file, "cannot be opened", error);
   if (std::ranges::mismatch(top, folder).in1 != top.end()) {
     throw InputError({.file = file.string(), .line = 0, .field = {}},

@@ -24,8 +24,8 @@ void write_file(const std::filesystem::path& file, std::string_view bytes);
 /// naming a file that is in the way, and otherwise as throw_refusal() does.
 void make_directories(const std::filesystem::path& directory);
 
-/// Throws InputError if the folder of `file` is not below `directory` after following symbolic links. Both
-/// must exist.
+/// Throws InputError if the folder of `file`, of which the end may not exist yet, is not below `directory`
+/// after following symbolic links. The directory must exist.
 void expect_below(const std::filesystem::path& directory, const std::filesystem::path& file);
 
 /// Writes all bytes to an open file. Throws as throw_refusal() does.

@@ -226,6 +226,18 @@ TEST_F(SafeFile, StagedSaysWhatItIsThatCannotBeWritten) {
   EXPECT_THAT(names_in(directory_), IsEmpty());
 }
 
+TEST_F(SafeFile, AFolderThatALinkLeadsOutOfTheDirectoryIsFoundBeforeItIsMade) {
+  fs::create_directories(directory_ / "dataset" / "A1");
+  fs::create_directory(directory_ / "elsewhere");
+  fs::create_symlink("../elsewhere", directory_ / "dataset" / "A2");
+  const auto check = [&](const fs::path& file) {
+    return complaint([&] { expect_below(directory_ / "dataset", directory_ / "dataset" / file); });
+  };
+  EXPECT_EQ(check("A1/plys/1.ply"), "none");
+  EXPECT_EQ(check("A3/plys/1.ply"), "none");
+  EXPECT_THAT(check("A2/plys/1.ply"), HasSubstr("expected a folder below the dataset's directory"));
+}
+
 using MakeDirectories = SafeFile;
 
 TEST_F(MakeDirectories, MakesAllThatAreMissing) {
