@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
-#include <system_error>
+#include <utility>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
@@ -133,12 +133,11 @@ CasePictures pictures_of(const JsonRecord& record) {
 std::string read_png(const fs::path& directory, const std::string& name) {
   constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
   const fs::path file = directory / name;
-  std::error_code error;  // of a name that is too long, which reading reports
-  if (!fs::exists(file, error) && !error) return {};
-  std::string bytes = read_file(file);
-  if (!bytes.starts_with(signature))
-    throw InputError({file.string(), 0, ""}, excerpt(bytes), "a PNG picture");
-  return bytes;
+  std::optional<std::string> bytes = read_if_there(file);
+  if (!bytes) return {};
+  if (!bytes->starts_with(signature))
+    throw InputError({file.string(), 0, ""}, excerpt(*bytes), "a PNG picture");
+  return std::move(*bytes);
 }
 
 }  // namespace
