@@ -12,6 +12,7 @@
 #include <string>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/experiment/results.hpp"
 #include "tanglebin/report/results.hpp"
 
 namespace {
@@ -22,13 +23,23 @@ void write(const fs::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
+// An InputError is fine, but its message must fit on one line.
+template <typename Read>
+void in_one_line(const Read& read) {
+  try {
+    read();
+  } catch (const tanglebin::InputError& error) {
+    if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fs::path directory =
       fs::temp_directory_path() / ("tanglebin-fuzz-results-" + std::to_string(getpid()));
-  static const std::array<std::string, 5> files = {"experiment.json", "results.jsonl", "times.jsonl",
-                                                   "generation.jsonl", "pictures.jsonl"};
+  static const std::array<std::string, 6> files = {"experiment.json",  "results.jsonl",  "times.jsonl",
+                                                   "generation.jsonl", "pictures.jsonl", "journal.jsonl"};
   if (size == 0) return 0;
   fs::remove_all(directory);
   fs::create_directories(directory);
@@ -36,12 +47,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       directory / "experiment.json",
       R"({"version":"0","dataset_seed":1,"methods":["paper"],"ratios":[0.3],"seed":0,"recipe_sha256":"","cases":1})");
   write(directory / files[data[0] % files.size()], std::string(data + 1, data + size));
-  try {
-    tanglebin::read_results_directory(directory);
-  } catch (const tanglebin::InputError& error) {
-    // Messages must fit on one line.
-    if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
-  }
+  in_one_line([&] { tanglebin::read_results_directory(directory); });
+  in_one_line([&] { tanglebin::finished_runs(directory); });
   fs::remove_all(directory);
   return 0;
 }

@@ -1,5 +1,7 @@
 #include "tanglebin/base/error.hpp"
 
+#include "tanglebin/base/text.hpp"
+
 namespace tanglebin {
 namespace {
 
@@ -8,7 +10,7 @@ std::string message(const InputPlace& place, const std::string& problem) {
   if (place.line > 0) text += ":" + std::to_string(place.line);
   if (!text.empty()) text += ": ";
   if (!place.field.empty()) text += place.field + ": ";
-  return text + problem;
+  return printable(text + problem);
 }
 
 }  // namespace
@@ -18,5 +20,8 @@ InputError::InputError(const InputPlace& place, const std::string& problem)
 
 InputError::InputError(const InputPlace& place, const std::string& found, const std::string& expected)
     : InputError(place, "found " + found + ", expected " + expected) {}
+
+SystemError::SystemError(const std::string& file, const std::string& problem)
+    : SystemError(message({.file = file}, problem)) {}
 
 }  // namespace tanglebin

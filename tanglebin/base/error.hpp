@@ -14,7 +14,8 @@ struct InputPlace {
 };
 
 /// Bad input: a file, a recipe or a parameter. The program prints what() on one line and exits with 2. what()
-/// reads "file:line: field: problem", where the problem is "found …, expected …" or a plain sentence.
+/// reads "file:line: field: problem", where the problem is "found …, expected …" or a plain sentence. It is
+/// printable() (text.hpp); place and problem are as given.
 class InputError : public std::runtime_error {
 public:
   InputError(const InputPlace& place, const std::string& problem);
@@ -28,6 +29,16 @@ public:
 private:
   InputPlace place_;
   std::string problem_;
+};
+
+/// The system refused what was right to ask: the disk is full, a file may not be written, … The same may work
+/// later. The program prints what(), "file: problem", on one line and exits with 5.
+class SystemError : public std::runtime_error {
+public:
+  SystemError(const std::string& file, const std::string& problem);
+
+  /// With what() of another.
+  explicit SystemError(const std::string& what) : std::runtime_error(what) {}
 };
 
 /// Calls `call`, and adds this file to an InputError that names none.

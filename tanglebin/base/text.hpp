@@ -13,6 +13,10 @@ namespace tanglebin {
 /// with \xNN for characters that are not printable.
 std::string excerpt(std::string_view text);
 
+/// Text that a terminal shows as it stands: control characters and bytes that are not UTF-8 become \n, \t or
+/// \xNN.
+std::string printable(std::string_view text);
+
 /// The words of a line, separated by white space. They are views into `line`.
 std::vector<std::string_view> words_of(std::string_view line);
 

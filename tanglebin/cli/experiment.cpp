@@ -11,6 +11,7 @@
 
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/exit_status.hpp"
 #include "tanglebin/cli/many_cases.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
@@ -45,8 +46,16 @@ std::vector<Method> methods_of(const ExperimentArguments& arguments) {
   return result;
 }
 
+/// What the results say, and when.
+struct Findings {
+  std::vector<MeanMicroRecall> means;
+  FailureCounts failures;
+  double ratio;
+  double seconds;
+};
+
 void print_json(const ExperimentArguments& arguments, const ExperimentSummary& summary,
-                const std::vector<MeanMicroRecall>& means, double ratio, double seconds) {
+                const Findings& findings) {
   const RunProgress& run = summary.progress;
   nlohmann::ordered_json json;
   if (arguments.progress == ProgressStyle::json) json["event"] = "end";
@@ -56,17 +65,31 @@ void print_json(const ExperimentArguments& arguments, const ExperimentSummary& s
   json["made"] = run.made;
   json["failed"] = run.failed;
   json["complete"] = summary.is_complete();
-  json["seconds"] = seconds;
-  json["ratio"] = ratio;
+  json["failed_runs"] = findings.failures.failed_runs;
+  json["unscored_cases"] = findings.failures.cases_unscored;
+  json["seconds"] = findings.seconds;
+  json["ratio"] = findings.ratio;
   json["micro_recall"] = nlohmann::ordered_json::array();
-  for (const MeanMicroRecall& mean : means) {
+  for (const MeanMicroRecall& mean : findings.means) {
     json["micro_recall"].push_back({{"method", name_of(mean.method)},
                                     {"set", mean.set},
                                     {"tubes", mean.tubes},
                                     {"cases", mean.cases},
+                                    {"failed", mean.failed},
                                     {"mean", mean.mean}});
   }
   print_json_line(json);
+}
+
+std::string counted(std::size_t count, const std::string& thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+// Over which cases a mean is: "10 tubes, 20 cases, 2 failed".
+std::string cases_of(const MeanMicroRecall& mean) {
+  return fmt::format("{}, {}{}", counted(static_cast<std::size_t>(mean.tubes), "tube"),
+                     counted(mean.cases, "case"),
+                     mean.failed > 0 ? fmt::format(", {} failed", mean.failed) : "");
 }
 
 // A line for each method and set.
@@ -78,20 +101,30 @@ void print_means(const std::vector<MeanMicroRecall>& means) {
     print_out("{}, set {}:", name_of(mean->method), mean->set);
     const auto first = mean;
     for (; mean != means.end() && same_line(*first, *mean); ++mean) {
-      print_out("{} {:.3f} ({} {})", mean == first ? "" : ",", mean->mean, mean->tubes,
-                mean->tubes == 1 ? "tube" : "tubes");
+      print_out("{} {:.3f} ({})", mean == first ? "" : ",", mean->mean, cases_of(*mean));
     }
     print_out("\n");
   }
 }
 
+void print_failures(const FailureCounts& failures, const std::string& directory) {
+  if (failures.failed_runs > 0) {
+    print_out("{} failed, each a micro-recall of 0; {}/results.jsonl says why\n",
+              counted(failures.failed_runs, "run"), directory);
+  }
+  if (failures.cases_unscored > 0) {
+    print_out("{} without a visible tube, in no mean\n", counted(failures.cases_unscored, "case"));
+  }
+}
+
 void print_text(const ExperimentArguments& arguments, const ExperimentSummary& summary,
-                const std::vector<MeanMicroRecall>& means, double ratio, double seconds) {
-  if (!means.empty()) print_out("mean micro-recall at ratio {}\n", ratio);
-  print_means(means);
+                const Findings& findings) {
+  if (!findings.means.empty()) print_out("mean micro-recall at ratio {}\n", findings.ratio);
+  print_means(findings.means);
+  print_failures(findings.failures, arguments.out);
   const RunProgress& run = summary.progress;
-  print_out("{}: {} cases modelled in {:.1f} s, {} already there{}\n", arguments.out, run.made, seconds,
-            run.found,
+  print_out("{}: {} cases modelled in {:.1f} s, {} already there{}\n", arguments.out, run.made,
+            findings.seconds, run.found,
             summary.was_stopped()
                 ? fmt::format("; stopped, {} to go", run.wanted - run.found - run.made - run.failed)
                 : "");
@@ -110,16 +143,18 @@ void experiment(const ExperimentArguments& arguments) {
     ProgressReport progress(arguments.progress);
     return run_experiment(dataset, settings, wanted, arguments.out, arguments.many.jobs, progress.observer());
   }();
-  if (summary.is_complete()) write_pictures(arguments.out, dataset, settings);
+  if (!summary.was_stopped()) write_pictures(arguments.out, dataset, settings);
+  const std::vector<RunResult> results = read_results(arguments.out);
   const double ratio = ratio_to_show(settings.ratios);
+  const Findings findings{mean_micro_recalls(results, ratio), count_failures(results), ratio,
+                          seconds_since(start)};
   const auto report = arguments.json || arguments.progress == ProgressStyle::json ? print_json : print_text;
-  report(arguments, summary, mean_micro_recalls(read_results(arguments.out), ratio), ratio,
-         seconds_since(start));
+  report(arguments, summary, findings);
   for (const FailedModel& failed : summary.failed) {
     print_error("tanglebin: {}: failed: {}\n", name_of(failed.id), failed.reason);
   }
-  if (summary.was_stopped()) throw CLI::RuntimeError(exit_interrupted);
-  if (!summary.failed.empty()) throw CLI::RuntimeError(exit_cases_failed);
+  if (summary.was_stopped()) throw CLI::RuntimeError(exit_interrupted());
+  if (findings.failures.failed_runs > 0) throw CLI::RuntimeError(exit_cases_failed);
 }
 
 }  // namespace
@@ -148,6 +183,7 @@ void add_experiment(CLI::App& app) {
   command->footer(
       "Example:\n  tanglebin experiment dataset --out results --downsample 0.3 --tubes 10 --cases 1-3\n"
       "Ctrl-C finishes the cases in progress; run the same command again to resume.\n"
+      "Exit status: 3 if runs failed, 130 if interrupted.\n"
       "Formats: docs/formats.md.");
   command->callback([arguments] { experiment(*arguments); });
 }

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "tanglebin/cli/many_cases.hpp"
+#include "tanglebin/cli/exit_status.hpp"
 #include "tanglebin/cli/print.hpp"
 
 namespace tanglebin::cli {
@@ -60,7 +60,7 @@ void report_fill(const FillReport& report, const FillSummary& summary, double se
   for (const FailedCase& failed : summary.failed) {
     print_error("tanglebin: {}: failed: {} (seed {:016x})\n", name_of(failed.id), failed.reason, failed.seed);
   }
-  if (summary.was_stopped()) throw CLI::RuntimeError(exit_interrupted);
+  if (summary.was_stopped()) throw CLI::RuntimeError(exit_interrupted());
   if (!summary.failed.empty()) throw CLI::RuntimeError(exit_cases_failed);
 }
 

@@ -16,7 +16,7 @@ struct FillReport {
 };
 
 /// Prints the result of a run, with each failed case on standard error. Throws CLI::RuntimeError to set a
-/// nonzero exit status: 1 if cases failed, 130 if the run was interrupted.
+/// nonzero exit status if cases failed or the run was interrupted.
 void report_fill(const FillReport& report, const FillSummary& summary, double seconds);
 
 }  // namespace tanglebin::cli

@@ -84,7 +84,7 @@ void add_generate(CLI::App& app) {
   command->footer(
       "Example:\n  tanglebin generate recipes/set-a.toml --out dataset --tubes 10 --cases 1-3\n"
       "Ctrl-C finishes the cases in progress; run the same command again to resume.\n"
-      "Exit status: 1 if cases failed, 130 if interrupted.\n"
+      "Exit status: 3 if cases failed, 130 if interrupted.\n"
       "Formats: docs/formats.md. Clusters: docs/cluster.md.");
   command->callback([arguments] { generate(*arguments); });
 }

@@ -7,18 +7,19 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
+#include <sstream>
+#include <string>
+#include <system_error>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/exit_status.hpp"
 #include "tanglebin/cli/print.hpp"
 
 namespace {
 
-using tanglebin::cli::print_error;
-
-constexpr int exit_internal_error = 1;
-constexpr int exit_bad_input = 2;
-constexpr int exit_usage = 64;  // EX_USAGE of sysexits.h
+using namespace tanglebin::cli;
 
 int run(int argc, char** argv) {
   CLI::App app{
@@ -26,21 +27,27 @@ int run(int argc, char** argv) {
   app.name("tanglebin");
   app.set_version_flag("--version", TANGLEBIN_VERSION);
   app.require_subcommand(1);
-  tanglebin::cli::add_generate(app);
-  tanglebin::cli::add_merge(app);
-  tanglebin::cli::add_verify(app);
-  tanglebin::cli::add_scan(app);
-  tanglebin::cli::add_preview(app);
-  tanglebin::cli::add_model(app);
-  tanglebin::cli::add_score(app);
-  tanglebin::cli::add_experiment(app);
-  tanglebin::cli::add_report(app);
-  tanglebin::cli::add_learn(app);
+  add_generate(app);
+  add_merge(app);
+  add_verify(app);
+  add_scan(app);
+  add_preview(app);
+  add_model(app);
+  add_score(app);
+  add_experiment(app);
+  add_report(app);
+  add_learn(app);
+  app.footer(
+      "Exit status: 0 done, 2 bad input, 3 cases failed, 4 faults found, 5 the system refused (disk full, "
+      "…), "
+      "64 wrong usage,\n130 and 143 interrupted, 1 an error of the program itself.");
   try {
     app.parse(argc, argv);  // runs the chosen command's callback
   } catch (const CLI::ParseError& error) {
     // A RuntimeError carries the exit status that a command chose; anything else is wrong usage.
-    const int status = app.exit(error);
+    std::stringstream complaints;
+    const int status = app.exit(error, std::cout, complaints);
+    for (std::string line; std::getline(complaints, line);) print_error("{}\n", line);
     const bool is_usage = dynamic_cast<const CLI::RuntimeError*>(&error) == nullptr;
     return status != 0 && is_usage ? exit_usage : status;
   }
@@ -59,15 +66,24 @@ bool is_output_lost() {
   return is_lost && !is_pipe(STDOUT_FILENO);
 }
 
+int explain(const char* what, int status) {
+  print_error("tanglebin: {}\n", what);
+  return status;
+}
+
 int run_and_explain(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const tanglebin::InputError& error) {
-    print_error("tanglebin: {}\n", error.what());
-    return exit_bad_input;
+    return explain(error.what(), exit_bad_input);
+  } catch (const tanglebin::SystemError& error) {
+    return explain(error.what(), exit_refused);
+  } catch (const std::system_error& error) {
+    return explain(error.what(), exit_refused);
+  } catch (const std::bad_alloc&) {
+    return explain("out of memory", exit_refused);
   } catch (const std::exception& error) {
-    print_error("tanglebin: {}\n", error.what());
-    return exit_internal_error;
+    return explain(error.what(), exit_internal_error);
   }
 }
 
@@ -87,6 +103,5 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   const int status = run_and_explain(argc, argv);
   if (!is_output_lost()) return status;
-  print_error("tanglebin: standard output: cannot write all output\n");
-  return exit_bad_input;
+  return explain("standard output: cannot write all output", exit_refused);
 }

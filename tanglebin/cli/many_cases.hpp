@@ -30,10 +30,4 @@ void add_options(CLI::App& command, ManyCases& many);
 /// The cases that match --set, --tubes and --cases. Throws InputError naming `source` if there are none.
 std::vector<CaseId> chosen(const ManyCases& many, std::vector<CaseId> cases, const std::string& source);
 
-/// Exit status of a command interrupted by SIGINT or SIGTERM, as a shell reports SIGINT.
-inline constexpr int exit_interrupted = 130;
-
-/// Exit status of a command with failed cases.
-inline constexpr int exit_cases_failed = 1;
-
 }  // namespace tanglebin::cli

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/exit_status.hpp"
 #include "tanglebin/cli/many_cases.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
@@ -14,8 +15,6 @@
 
 namespace tanglebin::cli {
 namespace {
-
-constexpr int exit_faults = 1;
 
 struct VerifyArguments {
   std::string dataset;
@@ -81,7 +80,7 @@ void verify_and_report(const VerifyArguments& arguments) {
   } else {
     print_text(arguments, summary, repaired);
   }
-  if (summary.was_stopped) throw CLI::RuntimeError(exit_interrupted);
+  if (summary.was_stopped) throw CLI::RuntimeError(exit_interrupted());
   if (!summary.faults.empty()) throw CLI::RuntimeError(exit_faults);
 }
 
@@ -98,7 +97,7 @@ void add_verify(CLI::App& app) {
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->footer(
       "Example:\n  tanglebin verify dataset --repair\n"
-      "Lists the faults and exits with status 1 if there are any; with --repair, if any remain.");
+      "Lists the faults and exits with status 4 if there are any; with --repair, if any remain.");
   command->callback([arguments] { verify_and_report(*arguments); });
 }
 

@@ -36,11 +36,14 @@ CheckedFile open_checked(const fs::path& directory, const CaseRecord& record, st
 
 }  // namespace
 
+Recipe recipe_in(const fs::path& directory) {
+  const fs::path file = directory / recipe_name;
+  std::istringstream in(read_file(file));
+  return read_recipe(in, file.string());
+}
+
 Dataset read_dataset(const fs::path& directory) {
-  const fs::path file = directory / "recipe.toml";
-  const std::string text = read_file(file);
-  std::istringstream in(text);
-  return {directory, read_recipe(in, file.string()), sha256(text), Catalogue(directory)};
+  return {directory, recipe_in(directory), sha256(read_file(directory / recipe_name)), Catalogue(directory)};
 }
 
 std::string checked_bytes(const fs::path& directory, const FileRecord& file) {
@@ -56,7 +59,7 @@ std::string checked_bytes(const fs::path& directory, const FileRecord& file) {
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw InputError({path.string(), 0, ""}, "cannot be opened: " + error.message());
   expect_size(size);
-  std::string bytes = read_file(path, file.bytes + 1);
+  std::string bytes = read_file(path, file.bytes);
   expect_size(bytes.size());
   if (const std::string found = sha256(bytes); found != file.sha256) {
     throw InputError({path.string(), 0, "sha256"}, found, file.sha256 + ", as the manifest says");

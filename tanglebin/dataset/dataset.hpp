@@ -19,6 +19,12 @@ struct Dataset {
   Catalogue catalogue;
 };
 
+/// The recipe in a dataset's directory.
+inline constexpr const char* recipe_name = "recipe.toml";
+
+/// Reads it. Throws InputError if it is missing, no regular file, or no recipe.
+Recipe recipe_in(const std::filesystem::path& directory);
+
 /// Reads the recipe and where each case is listed. Throws InputError if the directory has no recipe, or if a
 /// file cannot be read. A damaged record is an error when its case is read.
 Dataset read_dataset(const std::filesystem::path& directory);

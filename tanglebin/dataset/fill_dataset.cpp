@@ -6,6 +6,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/random.hpp"
+#include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/runs/file_lock.hpp"
@@ -23,13 +24,16 @@ std::string text_of(const Recipe& recipe) {
   return out.str();
 }
 
+// Expects that the directory has no other recipe.
+void expect_free(const fs::path& directory, const Recipe& recipe) {
+  if (fs::exists(directory / recipe_name)) expect_same_recipe(directory, recipe);
+}
+
 // Writes the directory's recipe, or expects it to be the same.
 void claim(const fs::path& directory, const Recipe& recipe, const fs::path& staging) {
-  const fs::path file = directory / "recipe.toml";
-  if (fs::exists(file)) {
-    expect_same_recipe(file, recipe);
-    return;
-  }
+  expect_free(directory, recipe);
+  const fs::path file = directory / recipe_name;
+  if (fs::exists(file)) return;
   write_staged(file, text_of(recipe), staging);
   sync_directory(directory);
 }
@@ -198,22 +202,25 @@ private:
 
 }  // namespace
 
-void expect_same_recipe(const fs::path& file, const Recipe& wanted) {
-  if (const auto found = difference(read_recipe(file), wanted))
-    throw InputError({file.string(), 0, ""}, "the directory belongs to another recipe: " + *found);
+void expect_same_recipe(const fs::path& directory, const Recipe& wanted) {
+  if (const auto found = difference(recipe_in(directory), wanted)) {
+    throw InputError({(directory / recipe_name).string(), 0, ""},
+                     "the directory belongs to another recipe: " + *found);
+  }
 }
 
 CaseWriter::CaseWriter(fs::path directory, fs::path staging)
     : directory_(std::move(directory)), staging_(std::move(staging)) {}
 
 FileRecord CaseWriter::write(const std::string& path, std::string_view bytes) const {
-  make_directories((directory_ / path).parent_path());
   expect_below(directory_, directory_ / path);
+  make_directories((directory_ / path).parent_path());
   write_staged(directory_ / path, bytes, staging_);
   return {path, bytes.size(), sha256(bytes)};
 }
 
 FillSummary fill_dataset(const FillRequest& request, const MakeCase& make, const RunObserver& observer) {
+  expect_free(request.directory, request.recipe);
   make_directories(request.directory);
   return Filling(request, make, observer).run();
 }

@@ -17,8 +17,9 @@
 
 namespace tanglebin {
 
-/// Throws InputError naming the first setting in which the recipe in `file` differs from `wanted`.
-void expect_same_recipe(const std::filesystem::path& file, const Recipe& wanted);
+/// Throws InputError naming the first setting in which the recipe in a dataset's directory differs from
+/// `wanted`.
+void expect_same_recipe(const std::filesystem::path& directory, const Recipe& wanted);
 
 /// Writes a case's files into a dataset's directory.
 class CaseWriter {

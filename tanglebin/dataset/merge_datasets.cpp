@@ -25,7 +25,7 @@ std::vector<Part> open_parts(const std::vector<fs::path>& directories, const Rec
   std::vector<Part> parts;
   parts.reserve(directories.size());
   for (const fs::path& directory : directories) {
-    expect_same_recipe(directory / "recipe.toml", recipe);
+    expect_same_recipe(directory, recipe);
     parts.push_back({directory, Catalogue(directory)});
   }
   return parts;
@@ -74,10 +74,7 @@ MadeCase copy_case(const Part& part, const Recipe& recipe, const CaseId& id, con
 FillSummary merge_datasets(const std::vector<fs::path>& parts, const fs::path& directory, int jobs,
                            const RunObserver& observer) {
   if (parts.empty()) throw InputError({}, "no datasets to merge");
-  FillRequest request{.recipe = read_recipe(parts.front() / "recipe.toml"),
-                      .wanted = {},
-                      .directory = directory,
-                      .jobs = jobs};
+  FillRequest request{.recipe = recipe_in(parts.front()), .wanted = {}, .directory = directory, .jobs = jobs};
   const std::vector<Part> opened = open_parts(parts, request.recipe);
   const std::vector<CaseId> all = cases(request.recipe);
   const std::map<CaseId, const Part*> source_of = sources(opened, all);

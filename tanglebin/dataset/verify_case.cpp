@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/geometry/mass_properties.hpp"
 #include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/json_record.hpp"
 #include "tanglebin/io/pcd.hpp"
 #include "tanglebin/io/ply.hpp"
 #include "tanglebin/settle/overlap.hpp"
@@ -132,7 +132,7 @@ private:
     } else if (is_of_kind(path, "gazebo_worlds")) {
       add_if_any(path, fault_of_world(bytes));
     } else if (path.ends_with(".json")) {
-      if (!nlohmann::json::accept(bytes)) add(path, "not JSON");
+      if (parse_json(bytes, {name, 0, ""}).is_discarded()) add(path, "not JSON");
     } else if (path.ends_with(".png")) {
       const Camera& camera = camera_of(recipe_, path);
       add_if_any(path, fault_of_png(bytes, camera.width, camera.height));

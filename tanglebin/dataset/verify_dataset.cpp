@@ -12,6 +12,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/catalogue.hpp"
+#include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/fill_dataset.hpp"
 #include "tanglebin/dataset/verify_case.hpp"
 #include "tanglebin/runs/journal.hpp"
@@ -219,7 +220,7 @@ private:
 
 VerifySummary verify_dataset(const fs::path& directory, const VerifySettings& settings,
                              const RunObserver& observer) {
-  return Verification(directory, read_recipe(directory / "recipe.toml"), settings, observer).run();
+  return Verification(directory, recipe_in(directory), settings, observer).run();
 }
 
 }  // namespace tanglebin

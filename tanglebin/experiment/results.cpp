@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <functional>
-#include <sstream>
+#include <limits>
+#include <string_view>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/text.hpp"
+#include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/io/json_record.hpp"
 #include "tanglebin/io/read_file.hpp"
 #include "tanglebin/io/safe_file.hpp"
@@ -30,6 +33,17 @@ fs::path times_of(const fs::path& directory) {
   return directory / "times.jsonl";
 }
 
+// SHA-256 of the program that runs.
+const std::string& program_sha256() {
+  static const std::string hash =
+      sha256(read_file("/proc/self/exe", std::numeric_limits<std::size_t>::max()));
+  return hash;
+}
+
+bool is_to_be_tried_again(const RunResult& result) {
+  return result.failure && result.failure->of == FailureOf::worker;
+}
+
 // Separates the lines of a case in the journal; inside the lines, JSON escapes tabs.
 constexpr char separator = '\t';
 
@@ -46,7 +60,9 @@ RunId run_of(const JsonRecord& record) {
 
 RunResult run_result(const std::string& line, const std::string& file, std::size_t number) {
   const JsonRecord record(line, file, number);
-  return {run_of(record), record.number("micro_recall"), line};
+  const std::optional<RunFailure> failure = failure_in(record);
+  return {run_of(record), record.text("case_sha256"), failure ? 0 : record.number("micro_recall"), failure,
+          line};
 }
 
 void add_result(FinishedRuns& finished, const std::string& line, const std::string& file,
@@ -62,20 +78,18 @@ void add_times(FinishedRuns& finished, const std::string& line, const std::strin
 
 void add_journal_line(FinishedRuns& finished, const std::string& line, const std::string& file,
                       std::size_t number) {
-  std::istringstream parts(line);
-  std::string result;
-  std::string times;
-  while (std::getline(parts, result, separator)) {
-    if (!std::getline(parts, times, separator))
-      throw InputError({file, number, ""}, "a result without times", "both, separated by a tab");
-    add_result(finished, result, file, number);
-    add_times(finished, times, file, number);
+  for (const std::string_view part : split(line, separator)) {
+    const std::string text(part);
+    const bool is_times = JsonRecord(text, file, number).has("seconds");
+    (is_times ? add_times : add_result)(finished, text, file, number);
   }
 }
 
-// Everything that the results depend on.
+// Everything that the results depend on, besides the cases themselves.
 Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings) {
-  Json json{{"version", TANGLEBIN_VERSION}, {"dataset_seed", dataset.recipe.seed}};
+  Json json{{"version", TANGLEBIN_VERSION},
+            {"program_sha256", program_sha256()},
+            {"dataset_seed", dataset.recipe.seed}};
   json["methods"] = Json::array();
   for (const Method method : settings.methods) json["methods"].push_back(name_of(method));
   json["ratios"] = settings.ratios;
@@ -91,6 +105,12 @@ std::string experiment_text(Json experiment, std::size_t cases) {
   return experiment.dump() + '\n';
 }
 
+Json result_head(const RunId& run, const std::string& case_sha256) {
+  Json json = run_json(run);
+  json["case_sha256"] = case_sha256;
+  return json;
+}
+
 // Calls `take` with every run of the experiment, in the order of the results' lines.
 void for_each_run(const std::vector<CaseId>& cases, const ExperimentSettings& settings,
                   const std::function<void(const RunId&)>& take) {
@@ -101,9 +121,10 @@ void for_each_run(const std::vector<CaseId>& cases, const ExperimentSettings& se
 
 }  // namespace
 
-std::string result_json(const RunId& run, const Model& model, const ModelScore& score) {
+std::string result_json(const RunId& run, const std::string& case_sha256, const Model& model,
+                        const ModelScore& score) {
   const auto& [labels, tubes] = score;
-  Json json = run_json(run);
+  Json json = result_head(run, case_sha256);
   json["points"] = labels.points;
   json["micro_recall"] = labels.micro_recall;
   json["mean_iou"] = labels.mean_iou;
@@ -133,6 +154,12 @@ std::string result_json(const RunId& run, const Model& model, const ModelScore& 
   return json.dump();
 }
 
+std::string failure_json(const RunId& run, const std::string& case_sha256, const RunFailure& failure) {
+  Json json = result_head(run, case_sha256);
+  add_failure(json, failure);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string times_json(const RunId& run, const Model& model, double seconds) {
   Json json = run_json(run);
   json["seconds"] = seconds;
@@ -147,8 +174,32 @@ std::string journal_line(const std::vector<std::string>& lines) {
 
 bool FinishedRuns::has(const CaseId& id, const ExperimentSettings& settings) const {
   bool all = true;
-  for_each_run({id}, settings, [&](const RunId& run) { all = all && results.contains(run); });
+  for_each_run({id}, settings, [&](const RunId& run) {
+    const auto found = results.find(run);
+    all = all && found != results.end() && !is_to_be_tried_again(found->second);
+  });
   return all;
+}
+
+void FinishedRuns::forget_changed_cases(const Dataset& dataset) {
+  std::map<CaseId, std::string> now;
+  for (const auto& [run, result] : results) {
+    const CaseId& id = run.scene;
+    if (now.contains(id)) continue;
+    if (!dataset.catalogue.has(id)) {
+      throw InputError({dataset.directory.string(), 0, name_of(id)},
+                       "the dataset lacks this case, which the results have; use another directory for its "
+                       "results");
+    }
+    now.emplace(id, case_sha256(dataset, id));
+  }
+  const auto is_changed = [&](const auto& entry) {
+    return entry.second.case_sha256 != now.at(entry.first.scene);
+  };
+  for (const auto& entry : results) {
+    if (is_changed(entry)) times.erase(entry.first);
+  }
+  std::erase_if(results, is_changed);
 }
 
 FinishedRuns finished_runs(const fs::path& directory) {
@@ -168,23 +219,29 @@ FinishedRuns finished_runs(const fs::path& directory) {
   return finished;
 }
 
-void claim(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings) {
-  if (fs::exists(directory / "manifest.jsonl"))
+void expect_free(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings) {
+  if (fs::exists(directory / manifest_name))
     throw InputError({directory.string(), 0, ""}, "a dataset", "a directory for results");
   const fs::path file = experiment_of(directory);
+  const std::optional<std::string> text = read_if_there(file);
+  if (!text) return;
+  const JsonRecord found(*text, file.string(), 0);
   const Json wanted = experiment_json(dataset, settings);
-  if (!fs::exists(file)) {
-    write_file(file, experiment_text(wanted, 0));
-    return;
-  }
-  const JsonRecord found(read_file(file), file.string(), 1);
   for (const auto& [key, value] : wanted.items()) {
     const Json other = found.json().value(key, Json());
     if (other == value) continue;
     throw InputError({file.string(), 0, key},
-                     fmt::format("the directory belongs to another experiment: it has {}, this one {}",
+                     fmt::format("the directory belongs to another {}: it has {}, this one {}; use another "
+                                 "directory",
+                                 key == "program_sha256" ? "build of the program" : "experiment",
                                  other.dump(), value.dump()));
   }
+}
+
+void claim(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings) {
+  expect_free(directory, dataset, settings);
+  const fs::path file = experiment_of(directory);
+  if (!fs::exists(file)) write_file(file, experiment_text(experiment_json(dataset, settings), 0));
 }
 
 void write_results(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings,

@@ -6,6 +6,7 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/base/random.hpp"
+#include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/score/score_clouds.hpp"
 
 namespace tanglebin {
@@ -25,6 +26,10 @@ PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int
 
 }  // namespace
 
+std::string case_sha256(const Dataset& dataset, const CaseId& id) {
+  return sha256(to_json(dataset.catalogue.record(id)));
+}
+
 KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
   KnownScene known{.bin = recipe.bin, .camera = recipe.camera, .kinds = {}};
   for (const TubeSpec& spec : set_named(recipe, id.set).kinds) {
@@ -40,7 +45,7 @@ KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
   return known;
 }
 
-Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run,
+Model model_case(const KnownScene& known, const CaseData& data, const RunId& run,
                  const ExperimentSettings& settings) {
   const CaseId& id = run.scene;
   ModelSettings model = settings.model;
@@ -48,8 +53,7 @@ Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run,
   model.ratio = run.ratio;
   constexpr int no_attempt = 0;  // scenes' attempts count from 1, so their seeds differ from the model's
   model.seed = attempt_seed(settings.model.seed, id.set, id.tubes, id.number, no_attempt);
-  return with_file(data.cloud_file,
-                   [&] { return model_tubes(data.cloud, known_scene(recipe_of(dataset, id), id), model); });
+  return with_file(data.cloud_file, [&] { return model_tubes(data.cloud, known, model); });
 }
 
 ModelScore score_model(const CaseData& data, const Model& model) {

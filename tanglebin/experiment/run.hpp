@@ -1,6 +1,7 @@
 #pragma once
 
 #include <compare>
+#include <string>
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
@@ -28,14 +29,18 @@ struct RunId {
   auto operator<=>(const RunId&) const = default;
 };
 
+/// Identifies what a case is modelled and scored from, its files and the numbers drawn for it: the SHA-256 of
+/// its line in the manifest, without the line's end. Throws InputError if the line cannot be read.
+std::string case_sha256(const Dataset& dataset, const CaseId& id);
+
 /// The scene as known from the recipe of a case: the bin, the camera, and radius and segments of each kind of
 /// tube. Of kinds with the same radius, the one with the most segments counts; among these, the longest.
 KnownScene known_scene(const Recipe& recipe, const CaseId& id);
 
-/// Models the tubes of a run's case, with the known scene from the recipe. The model's seed depends only on
+/// Models the tubes of a run's case, with the known scene of its recipe. The model's seed depends only on
 /// (settings.model.seed, set, number of tubes, case). Throws InputError as model_tubes() does, naming the
 /// case's cloud.
-Model model_case(const Dataset& dataset, const CaseData& data, const RunId& run,
+Model model_case(const KnownScene& known, const CaseData& data, const RunId& run,
                  const ExperimentSettings& settings);
 
 /// How good a model is.

@@ -1,8 +1,13 @@
 #include "tanglebin/experiment/run_experiment.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <string>
+#include <utility>
 
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/verify_case.hpp"
 #include "tanglebin/experiment/results.hpp"
 #include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/runs/journal.hpp"
@@ -13,21 +18,45 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+using Lines = std::vector<std::string>;
+
+// The journal line for a case with the lines that lines_of(run) gives for each of its runs.
+template <typename LinesOf>
+std::string lines_of_runs(const ExperimentSettings& settings, const CaseId& id, const LinesOf& lines_of) {
+  Lines all;
+  for (const Method method : settings.methods) {
+    for (const double ratio : settings.ratios) {
+      for (std::string& line : lines_of(RunId{method, id, ratio})) all.push_back(std::move(line));
+    }
+  }
+  return journal_line(all);
+}
+
+std::string failed_case(const Dataset& dataset, const ExperimentSettings& settings, const CaseId& id,
+                        const RunFailure& failure) {
+  const std::string sha256 = case_sha256(dataset, id);
+  return lines_of_runs(settings, id,
+                       [&](const RunId& run) { return Lines{failure_json(run, sha256, failure)}; });
+}
+
 // Runs everything for one case; returns its journal line.
 std::string run_case(const Dataset& dataset, const ExperimentSettings& settings, const CaseId& id) {
   const CaseData data = read_case(dataset, id);
-  std::vector<std::string> lines;
-  for (const Method method : settings.methods) {
-    for (const double ratio : settings.ratios) {
-      const RunId run{method, id, ratio};
-      const Clock::time_point start = Clock::now();
-      const Model model = model_case(dataset, data, run, settings);
-      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      lines.push_back(result_json(run, model, score_model(data, model)));
-      lines.push_back(times_json(run, model, seconds));
-    }
+  if (std::ranges::none_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; })) {
+    return failed_case(dataset, settings, id, {FailureOf::scene, "no point of the cloud is on a tube"});
   }
-  return journal_line(lines);
+  const std::string sha256 = case_sha256(dataset, id);
+  const KnownScene known = known_scene(recipe_of(dataset, id), id);
+  return lines_of_runs(settings, id, [&](const RunId& run) -> Lines {
+    try {
+      const Clock::time_point start = Clock::now();
+      const Model model = model_case(known, data, run, settings);
+      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      return {result_json(run, sha256, model, score_model(data, model)), times_json(run, model, seconds)};
+    } catch (const InputError& error) {
+      return {failure_json(run, sha256, {FailureOf::method, complaint_of(error)})};
+    }
+  });
 }
 
 }  // namespace
@@ -36,6 +65,7 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
                                  const std::vector<CaseId>& wanted, const std::filesystem::path& directory,
                                  int jobs, const RunObserver& observer) {
   for (const Method method : settings.methods) expect_available(method);
+  expect_free(directory, dataset, settings);
   make_directories(directory);
   const Journal journal(directory);
   claim(directory, dataset, settings);
@@ -43,7 +73,8 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
     write_results(directory, dataset, settings, finished);
     journal.clear();
   };
-  const FinishedRuns before = finished_runs(directory);
+  FinishedRuns before = finished_runs(directory);
+  before.forget_changed_cases(dataset);
   fold_journal(before);
   std::vector<CaseId> missing;
   for (const CaseId& id : wanted) {
@@ -64,9 +95,11 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
     }
   };
   const auto give_up = [&](const TaskFailure& failure) {
+    const CaseId& id = missing[failure.task];
+    journal.append({failed_case(dataset, settings, id, {FailureOf::worker, failure.reason})});
     ++summary.progress.failed;
-    summary.failed.push_back({missing[failure.task], failure.reason});
-    observer.ended({missing[failure.task], 0, 0, failure.reason}, summary.progress);
+    summary.failed.push_back({id, failure.reason});
+    observer.ended({id, 0, 0, failure.reason}, summary.progress);
   };
   try {
     run_in_workers(jobs, missing.size(),

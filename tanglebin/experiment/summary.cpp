@@ -3,8 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 namespace tanglebin {
+namespace {
+
+bool is_unscored(const RunResult& result) {
+  return result.failure && result.failure->of == FailureOf::scene;
+}
+
+}  // namespace
 
 double ratio_to_show(const std::vector<double>& ratios) {
   return std::ranges::min(ratios, {}, [](double ratio) {
@@ -18,23 +26,38 @@ double ratio_to_show(const std::vector<double>& ratios) {
 std::vector<MeanMicroRecall> mean_micro_recalls(const std::vector<RunResult>& results, double ratio) {
   std::vector<MeanMicroRecall> means;
   for (const RunResult& result : results) {
-    if (result.run.ratio != ratio) continue;
+    if (result.run.ratio != ratio || is_unscored(result)) continue;
     const Method method = result.run.method;
     const CaseId& id = result.run.scene;
     auto mean = std::ranges::find_if(means, [&](const MeanMicroRecall& other) {
       return other.method == method && other.set == id.set && other.tubes == id.tubes;
     });
-    if (mean == means.end()) mean = means.insert(mean, {method, id.set, id.tubes, 0, 0.0});
+    if (mean == means.end()) mean = means.insert(mean, {method, id.set, id.tubes, 0, 0, 0.0});
     ++mean->cases;
+    if (result.failure) ++mean->failed;
     mean->mean += (result.micro_recall - mean->mean) / static_cast<double>(mean->cases);
   }
   return means;
 }
 
+FailureCounts count_failures(const std::vector<RunResult>& results) {
+  FailureCounts counts;
+  std::set<CaseId> unscored;
+  for (const RunResult& result : results) {
+    if (is_unscored(result)) {
+      unscored.insert(result.run.scene);
+    } else if (result.failure) {
+      ++counts.failed_runs;
+    }
+  }
+  counts.cases_unscored = unscored.size();
+  return counts;
+}
+
 std::vector<Example> examples(const std::vector<RunResult>& results, Method method, double ratio) {
   std::vector<RunResult> runs;
   std::ranges::copy_if(results, std::back_inserter(runs), [&](const RunResult& result) {
-    return result.run.method == method && result.run.ratio == ratio;
+    return result.run.method == method && result.run.ratio == ratio && !result.failure;
   });
   if (runs.empty()) return {};
   std::ranges::stable_sort(runs, {}, &RunResult::micro_recall);

@@ -20,11 +20,19 @@ struct MeanMicroRecall {
   std::string set;
   int tubes;
   std::size_t cases;
+  std::size_t failed;  ///< of these: their micro-recall is 0, because nothing was found
   double mean;
 };
 
-/// The means at one ratio, in the order of the results.
+/// The means at one ratio, in the order of the results. Cases without a visible tube do not count.
 std::vector<MeanMicroRecall> mean_micro_recalls(const std::vector<RunResult>& results, double ratio);
+
+/// How many runs have no score, at all ratios.
+struct FailureCounts {
+  std::size_t failed_runs = 0;     ///< that could not be modelled
+  std::size_t cases_unscored = 0;  ///< without a visible tube
+};
+FailureCounts count_failures(const std::vector<RunResult>& results);
 
 /// A run chosen to represent its method.
 struct Example {
@@ -33,7 +41,7 @@ struct Example {
 };
 
 /// The runs with the highest, median and lowest micro-recall of a method at one ratio: the first of several,
-/// the lower of two medians. Empty if there are no such runs.
+/// the lower of two medians. Empty if there are no such runs. Runs without a score do not count.
 std::vector<Example> examples(const std::vector<RunResult>& results, Method method, double ratio);
 
 }  // namespace tanglebin

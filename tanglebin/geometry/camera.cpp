@@ -1,6 +1,7 @@
 #include "tanglebin/geometry/camera.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <tuple>
 
@@ -103,6 +104,10 @@ double depth_of(const Camera& camera, const Vector3d& point) {
 void validate(const Camera& camera) {
   require_pixels(camera.width, "scanner.width");
   require_pixels(camera.height, "scanner.height");
+  constexpr std::int64_t most_pixels = std::int64_t{1} << 26;
+  require(std::int64_t{camera.width} * camera.height <= most_pixels, "scanner.width",
+          std::to_string(camera.width) + " x " + std::to_string(camera.height) + " pixels",
+          "an image of at most 67108864 pixels (8192 x 8192)");
   require_focal_length(camera.fx, "scanner.fx");
   require_focal_length(camera.fy, "scanner.fy");
   require_coordinate(camera.cx, "scanner.cx");

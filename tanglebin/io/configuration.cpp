@@ -23,6 +23,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/io/cloud_input.hpp"
 
 namespace tanglebin {
 namespace {
@@ -39,7 +40,7 @@ constexpr std::string_view edge_fields = "name n1 n2 order radius cx cy cz qw qx
 /// Reads the file line by line and its fields by index, and throws errors with their position.
 class LineReader {
 public:
-  LineReader(std::istream& in, const std::string& name) : in_(in), name_(name) {}
+  LineReader(std::istream& in, const std::string& name) : in_(in), name_(name), input_(in, name) {}
 
   /// Advances to the next line, which must have the fields listed in `layout`.
   void expect_line(const std::string& what, std::string_view layout) {
@@ -88,18 +89,17 @@ public:
 private:
   bool next_line() {
     ++line_;
-    text_.clear();
     fields_.clear();
-    const bool there = static_cast<bool>(std::getline(in_, text_));
+    const std::optional<std::string_view> text = input_.next_line();
     if (in_.bad()) throw InputError({name_, 0, ""}, "cannot be read");
-    if (there) words_of(text_, fields_);
-    return there;
+    if (text) words_of(*text, fields_);
+    return text.has_value();
   }
 
   std::istream& in_;
   const std::string& name_;
   std::size_t line_ = 0;
-  std::string text_;
+  cloud_format::CloudInput input_;
   std::vector<std::string_view> fields_;
 };
 

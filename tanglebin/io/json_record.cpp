@@ -5,10 +5,19 @@
 #include <charconv>
 #include <utility>
 
-#include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 
 namespace tanglebin {
+
+Json parse_json(const std::string& text, const InputPlace& place) {
+  constexpr int deepest = 64;
+  const auto expect_shallow = [&](int depth, Json::parse_event_t, const Json&) {
+    if (depth > deepest)
+      throw InputError(place, "JSON nested too deep", fmt::format("at most {} levels", deepest));
+    return true;
+  };
+  return Json::parse(text, expect_shallow, /* allow_exceptions */ false);
+}
 
 std::string seed_text(std::uint64_t seed) {
   return fmt::format("{:016x}", seed);
@@ -16,7 +25,7 @@ std::string seed_text(std::uint64_t seed) {
 
 JsonRecord::JsonRecord(const std::string& text, std::string file, std::size_t line)
     : file_(std::move(file)), line_(line) {
-  json_ = Json::parse(text, nullptr, /* allow_exceptions */ false);
+  json_ = parse_json(text, {file_, line_, ""});
   if (!json_.is_object()) throw InputError({file_, line_, ""}, excerpt(text), "a JSON object");
 }
 

@@ -9,10 +9,16 @@
 #include <string_view>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
+
 // Internal to the library: JSON of datasets and results.
 namespace tanglebin {
 
 using Json = nlohmann::ordered_json;
+
+/// Parses text as JSON; a value for which is_discarded() holds if it is none. Throws InputError at `place` if
+/// it is nested more than 64 deep: what reads JSON later may call itself once per level.
+Json parse_json(const std::string& text, const InputPlace& place);
 
 /// Seeds are hexadecimal text. Many JSON readers convert numbers to double, which cannot hold all 64 bits.
 std::string seed_text(std::uint64_t seed);

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -21,8 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& file, const std::string& what, const std::error_code& reason) {
-  throw InputError({.file = file.string(), .line = 0, .field = {}}, what + ": " + reason.message());
+bool is_of_a_wrong_path(const std::error_code& reason) {
+  constexpr std::array reasons{std::errc::no_such_file_or_directory, std::errc::not_a_directory,
+                               std::errc::is_a_directory, std::errc::filename_too_long,
+                               std::errc::too_many_symbolic_link_levels};
+  return std::ranges::any_of(reasons, [&](std::errc wrong) { return reason == wrong; });
 }
 
 std::error_code last_error() {
@@ -168,8 +172,15 @@ fs::path obstacle(const fs::path& directory) {
 
 }  // namespace
 
+void throw_refusal(const std::filesystem::path& file, const std::string& what,
+                   const std::error_code& reason) {
+  const std::string problem = what + ": " + reason.message();
+  if (is_of_a_wrong_path(reason)) throw InputError({.file = file.string(), .line = 0, .field = {}}, problem);
+  throw SystemError(file.string(), problem);
+}
+
 void write_file(const std::filesystem::path& file, std::string_view bytes) {
-  if (const std::error_code error = write_whole(file, bytes)) fail(file, "cannot write", error);
+  if (const std::error_code error = write_whole(file, bytes)) throw_refusal(file, "cannot write", error);
 }
 
 void make_directories(const std::filesystem::path& directory) {
@@ -189,15 +200,15 @@ void make_directories(const std::filesystem::path& directory) {
   if (!blocked.empty()) {
     throw InputError({.file = blocked.string(), .line = 0, .field = {}}, "a file", "a directory");
   }
-  fail(directory, "cannot make the directory", error);
+  throw_refusal(directory, "cannot make the directory", error);
 }
 
 void expect_below(const std::filesystem::path& directory, const std::filesystem::path& file) {
   std::error_code error;
   const fs::path top = fs::canonical(directory, error);
-  if (error) fail(directory, "cannot be opened", error);
-  const fs::path folder = fs::canonical(directory_of(file), error);
-  if (error) fail(file, "cannot be opened", error);
+  if (error) throw_refusal(directory, "cannot be opened", error);
+  const fs::path folder = fs::weakly_canonical(directory_of(file), error);
+  if (error) throw_refusal(file, "cannot be opened", error);
   if (std::ranges::mismatch(top, folder).in1 != top.end()) {
     throw InputError({.file = file.string(), .line = 0, .field = {}},
                      "a folder that leads to " + folder.string(), "a folder below the dataset's directory");
@@ -205,11 +216,12 @@ void expect_below(const std::filesystem::path& directory, const std::filesystem:
 }
 
 void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& file) {
-  if (const std::error_code error = write_bytes(descriptor, bytes)) fail(file, "cannot write", error);
+  if (const std::error_code error = write_bytes(descriptor, bytes))
+    throw_refusal(file, "cannot write", error);
 }
 
 void sync_directory(const std::filesystem::path& directory) {
-  if (const std::error_code error = sync_names_in(directory)) fail(directory, "cannot write", error);
+  if (const std::error_code error = sync_names_in(directory)) throw_refusal(directory, "cannot write", error);
 }
 
 struct StagedFile::Implementation {
@@ -217,7 +229,7 @@ struct StagedFile::Implementation {
   TemporaryFile temporary;
 
   void expect(const std::error_code& error) const {
-    if (error) fail(file, "cannot write", error);
+    if (error) throw_refusal(file, "cannot write", error);
   }
 };
 

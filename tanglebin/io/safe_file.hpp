@@ -2,34 +2,42 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <system_error>
 
 namespace tanglebin {
 
+/// Throws for a file or directory that the system refused to write: "file: what: reason". An InputError if
+/// the path is wrong, so that trying again would not help (no such directory, a name too long, …); otherwise
+/// a SystemError.
+[[noreturn]] void throw_refusal(const std::filesystem::path& file, const std::string& what,
+                                const std::error_code& reason);
+
 /// Writes `bytes` to `file` atomically: to a temporary file in the same directory, which is then renamed and
 /// may replace an existing file. File and name are on disk when this returns. A symbolic link is followed; a
-/// device or pipe is written directly. On failure, leaves nothing behind and throws InputError with the file
-/// and the reason ("No space left on device", "Permission denied", "Is a directory", …).
+/// device or pipe is written directly. On failure, leaves nothing behind and throws as throw_refusal() does,
+/// with the file and the reason ("No space left on device", "Permission denied", "Is a directory", …).
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
 /// Creates a directory and its missing parents, and waits until their names are on disk. Throws InputError
-/// with the reason and the path that is in the way.
+/// naming a file that is in the way, and otherwise as throw_refusal() does.
 void make_directories(const std::filesystem::path& directory);
 
-/// Throws InputError if the folder of `file` is not below `directory` after following symbolic links. Both
-/// must exist.
+/// Throws InputError if the folder of `file`, of which the end may not exist yet, is not below `directory`
+/// after following symbolic links. The directory must exist.
 void expect_below(const std::filesystem::path& directory, const std::filesystem::path& file);
 
-/// Writes all bytes to an open file. Throws InputError with the file's name and the reason.
+/// Writes all bytes to an open file. Throws as throw_refusal() does.
 void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& file);
 
-/// Waits until the names in the directory, including those of files renamed before, are on disk. Throws
-/// InputError.
+/// Waits until the names in the directory, including those of files renamed before, are on disk. Throws as
+/// throw_refusal() does.
 void sync_directory(const std::filesystem::path& directory);
 
 /// A file written piece by piece under a temporary name in the directory `staging`, which must be on the same
 /// disk. commit() gives it its own name once its data is on disk; without commit(), it is removed. The new
-/// name is on disk after sync_directory(). All functions throw InputError as write_file() does.
+/// name is on disk after sync_directory(). All functions throw as write_file() does.
 class StagedFile {
 public:
   StagedFile(std::filesystem::path file, const std::filesystem::path& staging);

@@ -12,6 +12,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/io/read_file.hpp"
 #include "tanglebin/recipe/randomization.hpp"
 #include "tanglebin/recipe/recipe_tree.hpp"
 
@@ -23,12 +24,6 @@ namespace {
 std::string ascii(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) > 127; }, '?');
-  return text;
-}
-
-std::string lines_of(std::istream& in) {
-  std::string text;
-  for (std::string line; std::getline(in, line);) text += line + '\n';
   return text;
 }
 
@@ -140,7 +135,7 @@ Scanner scanner_with(const std::string& preset, const std::vector<std::string>& 
 }
 
 Recipe read_recipe(std::istream& in, const std::string& name) {
-  const std::string text = ascii(lines_of(in));
+  const std::string text = ascii(read_bytes(in, name));
   if (in.bad()) throw InputError({name, 0, ""}, "cannot be read");
   const toml::table tree = parse(text, name);
   const TomlSource source(name, tree);

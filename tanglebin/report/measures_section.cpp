@@ -38,6 +38,7 @@ std::vector<std::string> row_of(int tubes, const std::vector<RunScore>& runs) {
   const std::size_t found = sum(runs, &RunScore::joins_found);
   return {std::to_string(tubes),
           std::to_string(runs.size()),
+          std::to_string(count_failed(runs)),
           mean_share(runs, [](const RunScore& run) { return run.mean_iou; }),
           mean_share(runs, [](const RunScore& run) { return run.f1; }),
           mean_share(runs, [](const RunScore& run) { return run.panoptic_quality; }),
@@ -51,7 +52,7 @@ HtmlTable table_of(const std::vector<RunScore>& runs, const std::string& name, d
   HtmlTable table{.caption_html = fmt::format("<b>{}</b> at ratio {}.", escaped(name), ratio_text(ratio)),
                   .columns = {},
                   .rows = {}};
-  for (const char* heading : {"Tubes", "n", "mean IoU", "F1", "PQ", "ARI", "centre line, mm",
+  for (const char* heading : {"Tubes", "n", "failed", "mean IoU", "F1", "PQ", "ARI", "centre line, mm",
                               "joins found, of true", "joins true, of made"}) {
     table.columns.push_back({.heading = heading, .group = ""});
   }

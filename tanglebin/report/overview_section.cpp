@@ -57,13 +57,15 @@ std::string fact(const std::string& name, const std::string& value_html) {
 
 std::string facts(const Results& results) {
   const ExperimentRecord& experiment = results.experiment;
+  const std::size_t failed = count_failed(results.scores);
   return "<dl>\n" +
          fact("Dataset",
               fmt::format("{}; seed {}", escaped(dataset_text(results)), experiment.dataset_seed)) +
          fact("Recipe", fmt::format("SHA-256 <code>{}</code>", escaped(experiment.recipe_sha256))) +
          fact("Methods", escaped(joined(experiment.methods))) +
          fact("Downsampling ratios", ratios_text(experiment.ratios)) +
-         fact("Runs", fmt::format("{} scored; seed {}", results.scores.size(), experiment.seed)) +
+         fact("Runs", fmt::format("{} scored, {} failed; seed {}", results.scores.size() - failed, failed,
+                                  experiment.seed)) +
          fact("Version", "Tanglebin " + escaped(experiment.version)) + "</dl>\n";
 }
 
@@ -114,6 +116,28 @@ std::string headline(const Results& results) {
   return fmt::format("{}", fmt::join(sentences, " "));
 }
 
+/// How runs without a score count, and why the first of them failed.
+std::string note_on_failures(const Results& results) {
+  std::string html;
+  const auto failed = chosen(results.scores, [](const RunScore& score) { return !score.failure.empty(); });
+  if (!failed.empty()) {
+    const RunKey& first = failed.front().run;
+    html += paragraph(
+        "warning",
+        fmt::format(
+            "{} failed; a failed run counts as one that found nothing. The first, method {} at ratio {} "
+            "on {}: {}. <code>results.jsonl</code> has them all.",
+            counted(failed.size(), "run"), escaped(first.method), ratio_text(first.ratio),
+            escaped(name_of(first.id)), escaped(failed.front().failure)));
+  }
+  const auto unscored = distinct(results.unscored, [](const RunKey& run) { return run.id; });
+  if (!unscored.empty()) {
+    html += paragraph("warning", fmt::format("{} without a visible tube, which no mean counts.",
+                                             counted(unscored.size(), "case")));
+  }
+  return html;
+}
+
 // ---- How to run it again
 // -------------------------------------------------------------------------------------
 
@@ -151,7 +175,7 @@ std::string overview(const Results& results) {
         "are not on this page. Run the same command again to resume.");
   }
   html += paragraph("lead", escaped(headline(results)));
-  return html + facts(results) + "</header>\n";
+  return html + note_on_failures(results) + facts(results) + "</header>\n";
 }
 
 std::string how_to_repeat(const Results& results) {

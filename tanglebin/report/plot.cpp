@@ -13,6 +13,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/report/html.hpp"
 #include "tanglebin/report/process.hpp"
 
@@ -196,8 +197,7 @@ std::string draw(const std::string& commands) {
     gnuplot = run_process({"gnuplot", "--default-settings"}, commands);
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::no_such_file_or_directory) throw;
-    throw std::runtime_error(
-        "the plots need gnuplot, which is not installed (Debian: apt install gnuplot-nox)");
+    throw SystemError("the plots need gnuplot, which is not installed (Debian: apt install gnuplot-nox)");
   }
   if (gnuplot.status != 0 || !gnuplot.out.ends_with("</svg>\n\n")) {
     throw std::runtime_error(fmt::format("gnuplot failed with status {}: {}", gnuplot.status, gnuplot.err));

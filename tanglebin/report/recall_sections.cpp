@@ -15,6 +15,7 @@ namespace {
 struct RecallPoint {
   double x;
   Summary recall;
+  std::size_t failed;  ///< runs
   std::optional<double> published;
 };
 
@@ -48,7 +49,10 @@ RecallLine line_of(const std::vector<RunScore>& scores, const RunGroup& group, c
   for (const double x : distinct(runs, axis.x)) {
     const auto here = chosen(runs, [&](const RunScore& score) { return axis.x(score) == x; });
     const auto recall = values(here, [](const RunScore& score) { return score.micro_recall; });
-    line.points.push_back({.x = x, .recall = summarize(recall), .published = axis.published(group.set, x)});
+    line.points.push_back({.x = x,
+                           .recall = summarize(recall),
+                           .failed = count_failed(here),
+                           .published = axis.published(group.set, x)});
   }
   return line;
 }
@@ -72,7 +76,7 @@ bool has_published(const RecallLine& line) {
 
 PlotSeries measured_series(const RecallLine& line) {
   PlotSeries series{.name = line.name, .points = {}};
-  for (const auto& [x, recall, published] : line.points) {
+  for (const auto& [x, recall, failed, published] : line.points) {
     series.points.push_back(
         {.x = x, .y = recall.mean, .low = recall.first_quartile, .high = recall.third_quartile});
   }
@@ -126,17 +130,17 @@ HtmlTable table_of(const RecallLine& line, const Axis& axis, const std::string& 
       .caption_html = fmt::format("<b>{}, {}.</b> Micro-recall of the cases.", figure, escaped(line.name)),
       .columns = {{.heading = axis.label, .group = ""}},
       .rows = {}};
-  for (const char* heading : {"n", "mean", "SD", "min", "Q1", "median", "Q3", "max"}) {
+  for (const char* heading : {"n", "failed", "mean", "SD", "min", "Q1", "median", "Q3", "max"}) {
     table.columns.push_back({.heading = heading, .group = ""});
   }
   if (has_published(line)) {
     table.columns.push_back({.heading = "published", .group = "", .is_published = true});
   }
-  for (const auto& [x, recall, published] : line.points) {
-    table.rows.push_back({ratio_text(x), std::to_string(recall.count), share_text(recall.mean),
-                          share_text(recall.standard_deviation), share_text(recall.least),
-                          share_text(recall.first_quartile), share_text(recall.median),
-                          share_text(recall.third_quartile), share_text(recall.greatest)});
+  for (const auto& [x, recall, failed, published] : line.points) {
+    table.rows.push_back(
+        {ratio_text(x), std::to_string(recall.count), std::to_string(failed), share_text(recall.mean),
+         share_text(recall.standard_deviation), share_text(recall.least), share_text(recall.first_quartile),
+         share_text(recall.median), share_text(recall.third_quartile), share_text(recall.greatest)});
     if (has_published(line)) table.rows.back().push_back(published ? "≈ " + share_text(published) : "–");
   }
   return table;

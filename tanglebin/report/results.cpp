@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
+#include <optional>
 #include <string_view>
-#include <system_error>
+#include <utility>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/experiment/run_failure.hpp"
 #include "tanglebin/io/json_record.hpp"
 #include "tanglebin/io/read_file.hpp"
 #include "tanglebin/recipe/case_json.hpp"
@@ -27,30 +28,32 @@ double share_of(const JsonRecord& record, const std::string& field) {
 // ---- Files
 // -------------------------------------------------------------------------------------------------
 
-/// Calls `read` for each line of a file; empty if the file does not exist.
-template <typename Value, typename Read>
-std::vector<Value> read_lines(const fs::path& file, const Read& read) {
-  std::vector<Value> values;
-  if (!fs::exists(file)) return values;
-  std::istringstream in(read_file(file));
-  std::string text;
-  for (std::size_t line = 1; std::getline(in, text); ++line)
-    values.push_back(read(text, file.string(), line));
-  return values;
+template <typename Take>
+void for_each_record(const fs::path& file, const Take& take) {
+  for_each_line(file, [&](const FileLine& line) { take(JsonRecord(line.text, file.string(), line.number)); });
 }
 
 template <typename Value>
 std::vector<Value> read_records(const fs::path& file, Value (*read)(const JsonRecord&)) {
-  return read_lines<Value>(file, [&](const std::string& text, const std::string& name, std::size_t line) {
-    return read(JsonRecord(text, name, line));
+  std::vector<Value> values;
+  for_each_record(file, [&](const JsonRecord& record) { values.push_back(read(record)); });
+  return values;
+}
+
+std::vector<TimesRecord> read_generation(const fs::path& file) {
+  std::vector<TimesRecord> times;
+  for_each_line(file, [&](const FileLine& line) {
+    times.push_back(times_record(line.text, file.string(), line.number));
   });
+  return times;
 }
 
 ExperimentRecord read_experiment(const fs::path& file) {
-  if (!fs::exists(file)) {
+  const std::optional<std::string> text = read_if_there(file);
+  if (!text) {
     throw InputError({file.string(), 0, ""}, "is missing: not a results directory of `tanglebin experiment`");
   }
-  const JsonRecord record(read_file(file), file.string(), 0);
+  const JsonRecord record(*text, file.string(), 0);
   return {.version = record.text("version"),
           .dataset_seed = record.whole_number("dataset_seed"),
           .methods = record.texts("methods"),
@@ -69,6 +72,7 @@ RunKey run_of(const JsonRecord& record) {
 }
 
 RunScore score_of(const JsonRecord& record) {
+  if (const auto failure = failure_in(record)) return {.run = run_of(record), .failure = failure->reason};
   return {.run = run_of(record),
           .micro_recall = share_of(record, "micro_recall"),
           .mean_iou = share_of(record, "mean_iou"),
@@ -79,6 +83,22 @@ RunScore score_of(const JsonRecord& record) {
           .true_joins = record.whole_number("true_joins"),
           .joins_found = record.whole_number("joins_found"),
           .joins_made = record.whole_number("joins_made")};
+}
+
+bool is_unscored(const JsonRecord& record) {
+  const auto failure = failure_in(record);
+  return failure && failure->of == FailureOf::scene;
+}
+
+// Reads results.jsonl.
+void add_scores(const fs::path& file, Results& results) {
+  for_each_record(file, [&](const JsonRecord& record) {
+    if (is_unscored(record)) {
+      results.unscored.push_back(run_of(record));
+    } else {
+      results.scores.push_back(score_of(record));
+    }
+  });
 }
 
 RunTime time_of(const JsonRecord& record) {
@@ -113,23 +133,24 @@ CasePictures pictures_of(const JsonRecord& record) {
 std::string read_png(const fs::path& directory, const std::string& name) {
   constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
   const fs::path file = directory / name;
-  std::error_code error;  // of a name that is too long, which reading reports
-  if (!fs::exists(file, error) && !error) return {};
-  std::string bytes = read_file(file);
-  if (!bytes.starts_with(signature))
-    throw InputError({file.string(), 0, ""}, excerpt(bytes), "a PNG picture");
-  return bytes;
+  std::optional<std::string> bytes = read_if_there(file);
+  if (!bytes) return {};
+  if (!bytes->starts_with(signature))
+    throw InputError({file.string(), 0, ""}, excerpt(*bytes), "a PNG picture");
+  return std::move(*bytes);
 }
 
 }  // namespace
 
 Results read_results_directory(const fs::path& directory) {
   Results results{.experiment = read_experiment(directory / "experiment.json"),
-                  .scores = read_records(directory / "results.jsonl", score_of),
+                  .scores = {},
+                  .unscored = {},
                   .times = read_records(directory / "times.jsonl", time_of),
-                  .generation = read_lines<TimesRecord>(directory / "generation.jsonl", times_record),
+                  .generation = read_generation(directory / "generation.jsonl"),
                   .pictures = read_records(directory / "pictures.jsonl", pictures_of),
                   .unfinished = fs::exists(directory / "journal.jsonl")};
+  add_scores(directory / "results.jsonl", results);
   for (CasePictures& pictures : results.pictures) {
     pictures.truth_png = read_png(directory, pictures.truth_file);
     pictures.labels_png = read_png(directory, pictures.labels_file);

@@ -31,15 +31,17 @@ struct RunKey {
   double ratio = 1;
 };
 
-/// The score of a run (results.jsonl). docs/metrics.md defines the measures.
+/// The score of a run (results.jsonl). docs/metrics.md defines the measures. A run that failed has the score
+/// of one that found nothing.
 struct RunScore {
   RunKey run;
+  std::string failure{};  ///< why it failed; empty if it did not
   double micro_recall = 0;
   double mean_iou = 0;
   double f1 = 0;
   double panoptic_quality = 0;
   double adjusted_rand_index = 0;
-  std::optional<double> centre_line_error;  ///< m; none if no tube was found
+  std::optional<double> centre_line_error{};  ///< m; none if no tube was found
   std::size_t true_joins = 0;
   std::size_t joins_found = 0;  ///< of the true ones
   std::size_t joins_made = 0;   ///< true or not
@@ -66,6 +68,7 @@ struct CasePictures {
 struct Results {
   ExperimentRecord experiment;
   std::vector<RunScore> scores;
+  std::vector<RunKey> unscored;  ///< runs of cases without a visible tube
   std::vector<RunTime> times;
   std::vector<TimesRecord> generation;  ///< the dataset's times; empty if unknown
   std::vector<CasePictures> pictures;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -53,6 +54,11 @@ inline int tubes_of(const RunTime& time) {
 }
 inline int tubes_of(const TimesRecord& times) {
   return times.id.tubes;
+}
+
+inline std::size_t count_failed(const std::vector<RunScore>& scores) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(scores, [](const RunScore& score) { return !score.failure.empty(); }));
 }
 
 /// True if a RunScore or RunTime belongs to the group.

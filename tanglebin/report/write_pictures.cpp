@@ -27,9 +27,10 @@ void draw(const PointCloud& cloud, const std::filesystem::path& file, const std:
 // Draws an example and returns its line of pictures.jsonl.
 std::string draw_example(const Example& example, const std::filesystem::path& directory,
                          const Dataset& dataset, const ExperimentSettings& settings) {
-  const auto& [run, micro_recall, json] = example.result;
+  const RunId& run = example.result.run;
   const CaseData data = read_case(dataset, run.scene);
-  const ComparedClouds clouds = compared_clouds(data, model_case(dataset, data, run, settings));
+  const KnownScene known = known_scene(recipe_of(dataset, run.scene), run.scene);
+  const ComparedClouds clouds = compared_clouds(data, model_case(known, data, run, settings));
   const std::string name = fmt::format("pictures/{}-{}", name_of(run.method), example.rank);
   const std::string truth = name + "-truth.png";
   const std::string labels = name + "-labels.png";
@@ -39,7 +40,7 @@ std::string draw_example(const Example& example, const std::filesystem::path& di
   Json line{{"method", name_of(run.method)}, {"rank", example.rank}};
   line.update(id_json(run.scene));
   line["ratio"] = run.ratio;
-  line["micro_recall"] = micro_recall;
+  line["micro_recall"] = example.result.micro_recall;
   line["truth"] = truth;
   line["labels"] = labels;
   return line.dump();

@@ -6,12 +6,11 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <system_error>
 #include <thread>
 #include <utility>
 
-#include "tanglebin/base/error.hpp"
+#include "tanglebin/io/safe_file.hpp"
 
 namespace tanglebin {
 namespace {
@@ -19,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& file) {
-  throw InputError({file.string(), 0, ""}, std::strerror(errno));
+  throw_refusal(file, "cannot be locked", {errno, std::generic_category()});
 }
 
 bool try_to_lock(int descriptor, const fs::path& file) {

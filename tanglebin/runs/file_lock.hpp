@@ -11,7 +11,7 @@ namespace tanglebin {
 class FileLock {
 public:
   /// Opens the file for reading and appending, creates it if missing, and locks it; nullopt if another run
-  /// has the lock. Throws InputError if the file cannot be opened or is a symbolic link.
+  /// has the lock. Throws as throw_refusal() does if the file cannot be opened or is a symbolic link.
   static std::optional<FileLock> take(const std::filesystem::path& file);
 
   ~FileLock();

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -31,6 +29,10 @@ fs::path staging_of(const fs::path& journal) {
   return journal.parent_path() / ("." + journal.stem().string() + ".unfinished");
 }
 
+std::error_code last_error() {
+  return {errno, std::generic_category()};
+}
+
 // A run that folds the journals of interrupted runs locks them briefly, together with the directory.
 std::optional<FileLock> take_lock(const fs::path& file) {
   const DirectoryLock lock(file.parent_path());
@@ -42,7 +44,7 @@ FileLock wait_for_lock(const fs::path& file, std::chrono::seconds patience) {
   while (true) {
     if (std::optional<FileLock> lock = take_lock(file)) return std::move(*lock);
     if (std::chrono::steady_clock::now() >= end) {
-      throw InputError({file.parent_path().string(), 0, ""}, "another run is writing here");
+      throw SystemError(file.parent_path().string(), "another run is writing here");
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
@@ -62,7 +64,7 @@ void cut_torn_line(const fs::path& file) {
   for_each_whole_line(file, [&](const std::string& line, std::size_t) { whole += line.size() + 1; });
   std::error_code error;
   fs::resize_file(file, whole, error);
-  if (error) throw InputError({file.string(), 0, ""}, error.message());
+  if (error) throw_refusal(file, "cannot write", error);
 }
 
 }  // namespace
@@ -94,11 +96,11 @@ void Journal::append(const std::vector<std::string>& lines) const {
   std::string text;
   for (const std::string& line : lines) text += line + '\n';
   write_all(lock_.descriptor(), text, file_);
-  if (fdatasync(lock_.descriptor()) != 0) throw InputError({file_.string(), 0, ""}, std::strerror(errno));
+  if (fdatasync(lock_.descriptor()) != 0) throw_refusal(file_, "cannot write", last_error());
 }
 
 void Journal::clear() const {
-  if (ftruncate(lock_.descriptor(), 0) != 0) throw InputError({file_.string(), 0, ""}, std::strerror(errno));
+  if (ftruncate(lock_.descriptor(), 0) != 0) throw_refusal(file_, "cannot write", last_error());
 }
 
 std::vector<fs::path> journals_in(const fs::path& directory) {
@@ -125,11 +127,9 @@ std::vector<Journal> abandoned_journals(const fs::path& directory) {
 
 void for_each_whole_line(const fs::path& file,
                          const std::function<void(const std::string&, std::size_t)>& take) {
-  std::optional<std::ifstream> in = open_if_there(file);
-  if (!in) return;
-  std::string line;
-  for (std::size_t number = 1; std::getline(*in, line) && !in->eof(); ++number) take(line, number);
-  expect_read(*in, file);
+  for_each_line(file, [&](const FileLine& line) {
+    if (line.is_whole) take(line.text, line.number);
+  });
 }
 
 void for_each_readable_line(const fs::path& file,

@@ -18,7 +18,7 @@ namespace tanglebin {
 class Journal {
 public:
   /// Opens the journal `directory`/journal.jsonl, or journal-NAME.jsonl for a name such as "2-of-8", for this
-  /// process and its forks. It keeps the whole lines that an earlier run left. Throws InputError if another
+  /// process and its forks. It keeps the whole lines that an earlier run left. Throws SystemError if another
   /// run still has it after a few seconds, or two minutes if it has a name.
   explicit Journal(const std::filesystem::path& directory, const std::string& name = {});
 
@@ -35,7 +35,7 @@ public:
   /// A directory on the same disk for unfinished files; empty at first.
   const std::filesystem::path& staging() const { return staging_; }
 
-  /// The lines are on the disk when it returns. Throws InputError if that fails ("No space left on device",
+  /// The lines are on the disk when it returns. Throws SystemError if that fails ("No space left on device",
   /// …).
   void append(const std::vector<std::string>& lines) const;
 

@@ -37,7 +37,7 @@ public:
   InterruptGuard() {
     interrupted = 0;
     struct sigaction remember {};
-    remember.sa_handler = [](int) { interrupted = 1; };
+    remember.sa_handler = [](int signal) { interrupted = signal; };
     sigaction(SIGINT, &remember, &old_int_);
     sigaction(SIGTERM, &remember, &old_term_);
   }
@@ -92,7 +92,7 @@ private:
   int descriptor_;
 };
 
-enum class Outcome : std::uint32_t { done, bad_input, impossible, exception };
+enum class Outcome : std::uint32_t { done, bad_input, refused, impossible, exception };
 
 /// A worker's answer.
 struct Answer {
@@ -119,6 +119,8 @@ Answer answer_of(const Task& task, std::size_t number) {
     return {Outcome::done, task(number)};
   } catch (const InputError& error) {
     return {Outcome::bad_input, error.what()};
+  } catch (const SystemError& error) {
+    return {Outcome::refused, error.what()};
   } catch (const TaskImpossible& error) {
     return {Outcome::impossible, error.what()};
   } catch (const std::exception& error) {
@@ -194,7 +196,12 @@ public:
 
   void stop() { stopped_ = true; }
 
-  const std::optional<std::string>& bad_input() const { return bad_input_; }
+  /// Throws the first error of a task that ended the run.
+  void rethrow() const {
+    if (!end_) return;
+    if (end_->outcome == Outcome::refused) throw SystemError(end_->text);
+    throw InputError({}, end_->text);
+  }
 
   /// Waits briefly for answers, hands out the next tasks, and then reports what is done.
   void turn() {
@@ -258,7 +265,8 @@ private:
         break;
       }
       case Outcome::bad_input:
-        if (!bad_input_) bad_input_ = std::move(answer->text);
+      case Outcome::refused:
+        if (!end_) end_ = std::move(answer);
         stop();
         break;
       case Outcome::impossible:
@@ -299,8 +307,8 @@ private:
   std::deque<std::size_t> again_;  ///< before that, those to try again
   std::set<std::size_t> tried_;    ///< those that failed once
   std::vector<TaskFailure> failures_;
-  std::optional<std::string> bad_input_;
-  bool stopped_ = false;  ///< hand out no more
+  std::optional<Answer> end_;  ///< an error that ends the run
+  bool stopped_ = false;       ///< hand out no more
 };
 
 }  // namespace
@@ -311,8 +319,12 @@ bool run_in_workers(int jobs, std::size_t count, const Task& task, const Workers
   for (int i = 0; i < jobs && static_cast<std::size_t>(i) < count; ++i) crew.hire();
   crew.hand_out_tasks();
   while (crew.is_under_way()) crew.turn();
-  if (crew.bad_input()) throw InputError({}, *crew.bad_input());
+  crew.rethrow();
   return interrupted == 0;
+}
+
+int interrupting_signal() {
+  return interrupted;
 }
 
 }  // namespace tanglebin

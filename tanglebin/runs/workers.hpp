@@ -44,11 +44,15 @@ struct WorkersObserver {
 
 /// Runs tasks 0 … count − 1 in `jobs` forked processes. A worker gets its next task as soon as it has done
 /// the last, so a slow task delays no other. A task that throws TaskImpossible is given up. One whose worker
-/// dies, or that throws anything but an InputError, is tried once more and then given up. Returns true when
+/// dies, or that throws anything but an InputError or a SystemError, is tried once more and then given up.
+/// Returns true when
 /// each task is done or given up; false after SIGINT or SIGTERM, when the running tasks are finished and the
-/// rest is left. The same happens if a task throws InputError, which is then thrown here, and if an observer
-/// throws. Workers end with the calling process, whatever ends it. Do not call it while other threads run:
-/// fork() does not copy them.
+/// rest is left. The same happens if a task throws one of these errors, which is then thrown here, and if an
+/// observer throws. Workers end with the calling process, whatever ends it. Do not call it while other
+/// threads run: fork() does not copy them.
 bool run_in_workers(int jobs, std::size_t count, const Task& task, const WorkersObserver& observer);
+
+/// The signal that interrupted the last call of run_in_workers(): SIGINT or SIGTERM; 0 if none did.
+int interrupting_signal();
 
 }  // namespace tanglebin

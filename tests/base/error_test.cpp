@@ -33,5 +33,10 @@ TEST(InputError, KeepsThePlaceAndTheProblem) {
   }
 }
 
+TEST(SystemError, NamesTheFileAndTheProblem) {
+  EXPECT_STREQ(SystemError("out.ply", "cannot write: No space left on device").what(),
+               "out.ply: cannot write: No space left on device");
+}
+
 }  // namespace
 }  // namespace tanglebin

@@ -44,8 +44,8 @@ TEST_F(ExperimentCommand, ModelsEveryCaseAndPrintsTheMeansByMethodAndSet) {
   EXPECT_EQ(run.err, "");  // no progress where standard error is no terminal
   EXPECT_THAT(run.out, HasSubstr("mean micro-recall at ratio 0.3\n"));
   for (const std::string method : {"paper", "axis"}) {
-    EXPECT_THAT(run.out, testing::ContainsRegex(
-                             method + ", set A: [01]\\.[0-9]+ \\(1 tube\\), [01]\\.[0-9]+ \\(2 tubes\\)\n"));
+    EXPECT_THAT(run.out, testing::ContainsRegex(method + ", set A: [01]\\.[0-9]+ \\(1 tube, 2 cases\\), "
+                                                         "[01]\\.[0-9]+ \\(2 tubes, 2 cases\\)\n"));
   }
   EXPECT_THAT(run.out, HasSubstr("results: 4 cases modelled in "));
   for (const char* file : {"experiment.json", "results.jsonl", "times.jsonl", "generation.jsonl",
@@ -73,6 +73,37 @@ TEST_F(ExperimentCommand, TakesRatiosAsAListOrARange) {
   EXPECT_EQ(ratios_of("default"), "[0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8,0.9,1.0]");
   experiment("--cases 1 --tubes 1 --downsample 0.05:0.15:0.05", "range");
   EXPECT_EQ(ratios_of("range"), "[0.05,0.1,0.15]");
+}
+
+TEST_F(ExperimentCommand, FailedRunsAreCountedAndTheExitStatusIsThree) {
+  const std::string two_radii =
+      recipe + "[[set.tube]]\nradius = 0.009\nmass = 0.3\nlength = 0.4\n" + "bend_max_deg = 30\n";
+  const std::string kinds = std::string(two_radii).replace(two_radii.find("[set.tube]"), 10, "[[set.tube]]");
+  ASSERT_EQ(run_program("generate - --out " + path("kinds"), kinds).status, 0);
+  const std::string command = "experiment " + path("kinds") + " --out " + path("results") +
+                              " --method paper --method axis --downsample 0.3 --tubes 2";
+  const ProgramResult run = run_program(command);
+  EXPECT_EQ(run.status, 3) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("paper, set A: 0.000 (2 tubes, 2 cases, 2 failed)\n"));
+  EXPECT_THAT(run.out, HasSubstr("\n2 runs failed, each a micro-recall of 0; " + path("results") +
+                                 "/results.jsonl says why\n"));
+  const auto again = nlohmann::json::parse(run_program(command + " --json").out);
+  EXPECT_EQ(again.at("found"), 2);
+  EXPECT_EQ(again.at("failed_runs"), 2);
+  EXPECT_EQ(again.at("micro_recall").at(0).at("failed"), 2);
+  EXPECT_EQ(run_program("report " + path("results") + " --out " + path("page.html")).status, 0);
+  EXPECT_THAT(bytes_of(path("page.html")),
+              HasSubstr("2 runs failed; a failed run counts as one that found nothing"));
+}
+
+TEST_F(ExperimentCommand, CasesWithoutAVisibleTubeAreToldOfApart) {
+  const std::string aside = std::string(recipe).replace(
+      recipe.find("[scanner]"), 9, "[scanner]\nlook_at = [0, {one_of = [0.0, 30.0]}, 0]");
+  run_program("generate - --out " + path("dataset2"), aside);
+  const ProgramResult run =
+      run_program("experiment " + path("dataset2") + " --out " + path("r") + " --downsample 0.3");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, testing::ContainsRegex("\n[1-4] cases? without a visible tube, in no mean\n"));
 }
 
 TEST_F(ExperimentCommand, BadInputIsExitStatusTwoAndOneLine) {

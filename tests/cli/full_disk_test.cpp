@@ -64,7 +64,7 @@ protected:
 TEST_F(FullDisk, IsAnErrorThatLosesNoFinishedCaseAndTheRunGoesOnWhenThereIsSpace) {
   ASSERT_EQ(generate(directory_ / "whole").status, 0);
   const ProgramResult full = generate(disk_ / "dataset");
-  EXPECT_EQ(full.status, 2);
+  EXPECT_EQ(full.status, 5);
   EXPECT_THAT(full.err, HasSubstr("No space left on device"));
   EXPECT_EQ(std::ranges::count(full.err, '\n'), 1) << full.err;
 
@@ -77,7 +77,7 @@ TEST_F(FullDisk, IsAnErrorThatLosesNoFinishedCaseAndTheRunGoesOnWhenThereIsSpace
   }
   EXPECT_GT(clouds, 3U);
   EXPECT_LT(clouds, 40U);
-  EXPECT_EQ(generate(disk_ / "dataset").status, 2);  // it is still full
+  EXPECT_EQ(generate(disk_ / "dataset").status, 5);  // it is still full
 
   ASSERT_TRUE(mount_with("size=64m", MS_REMOUNT));
   const ProgramResult rest = generate(disk_ / "dataset");

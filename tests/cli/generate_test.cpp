@@ -179,7 +179,7 @@ TEST_F(Generate, CasesWithoutAValidSceneAreToldOfAndTheOthersMade) {
               "[[set]]\nname = 'A'\ntubes = [1, 12]\ncases = 2\n"
               "[set.tube]\nradius = 0.0125\nmass = 0.5\nlength = 0.5\nbend_max_deg = 30\n");
   const auto result = run_program(command("--jobs 1 --progress json"));
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 3);
   EXPECT_THAT(
       result.out,
       HasSubstr("{\"event\":\"failure\",\"set\":\"A\",\"tubes\":12,\"case\":1,\"reason\":\"no valid "));
@@ -190,7 +190,7 @@ TEST_F(Generate, CasesWithoutAValidSceneAreToldOfAndTheOthersMade) {
           "tanglebin: A12/2: failed: "));
   EXPECT_EQ(std::ranges::count(bytes_of(directory_ / "dataset/failed.jsonl"), '\n'), 2);
   const auto hopeless = run_program(command("--tubes 12", "hopeless"));
-  EXPECT_EQ(hopeless.status, 1);
+  EXPECT_EQ(hopeless.status, 3);
   EXPECT_THAT(hopeless.err, testing::ContainsRegex(
                                 "^tanglebin: A12/[12]: failed: no valid scene of 12 tubes in 1 attempts"));
 }

@@ -67,10 +67,10 @@ public:
     return text;
   }
 
-  void interrupt_after_a_case() {
+  void interrupt_after_a_case(int signal = SIGINT) {
     std::string text = line();
     while (!text.empty() && text.find("\"event\":\"case\"") == std::string::npos) text = line();
-    kill(process_, SIGINT);
+    kill(process_, signal);
   }
 
   std::string last_line() {
@@ -124,6 +124,13 @@ TEST_F(Interruption, OfGenerateFinishesTheCasesUnderWayAndLeavesADatasetAndNothi
   const auto rest = nlohmann::json::parse(run_program(generate("--json")).out);
   EXPECT_EQ(rest.at("found"), end.at("made"));
   EXPECT_EQ(rest.at("complete"), true);
+}
+
+TEST_F(Interruption, BySigtermHasAnExitStatusOfItsOwn) {
+  RunningProgram program({"generate", path("recipe.toml"), "--out", path("dataset"), "--progress", "json"});
+  program.interrupt_after_a_case(SIGTERM);
+  EXPECT_EQ(nlohmann::json::parse(program.last_line()).at("complete"), false);
+  EXPECT_EQ(program.exit_status(), 143);
 }
 
 TEST_F(Interruption, OfARepairEndsItWithoutAnotherVerification) {
@@ -181,7 +188,7 @@ TEST_F(Interruption, OutputThatIsLostIsAnError) {
   for (const std::string& command :
        {generate("--cases 1"), "verify " + path("dataset"), std::string("--help")}) {
     const ProgramResult result = run_program(command + " >/dev/full");
-    EXPECT_EQ(result.status, 2) << command;
+    EXPECT_EQ(result.status, 5) << command;
     EXPECT_EQ(result.err, "tanglebin: standard output: cannot write all output\n");
   }
   EXPECT_EQ(run_program(generate("--cases 2") + " 2>/dev/full").status, 0);

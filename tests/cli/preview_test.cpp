@@ -133,7 +133,7 @@ TEST_F(Preview, SaysWhereItCannotWrite) {
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, HasSubstr("absent/picture.png: cannot write: No such file or directory"));
   const ProgramResult full = preview("tube.txt --width 8 --height 8 --out - >/dev/full");
-  EXPECT_EQ(full.status, 2);
+  EXPECT_EQ(full.status, 5);
   EXPECT_THAT(full.err, HasSubstr("standard output: cannot write"));
 }
 

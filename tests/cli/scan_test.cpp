@@ -146,7 +146,7 @@ TEST_F(ScanCommand, BadInputIsExitStatusTwoAndLeavesNothing) {
   result =
       run_program("scan " + configuration_.string() + " --out " + (directory_ / "no" / "cloud.ply").string());
   EXPECT_EQ(result.status, 2);
-  EXPECT_EQ(run_program("scan " + configuration_.string() + " --out /dev/full").status, 2);
+  EXPECT_EQ(run_program("scan " + configuration_.string() + " --out /dev/full").status, 5);
 }
 
 TEST_F(ScanCommand, TakesEveryPublishedFile) {

@@ -13,6 +13,7 @@ namespace {
 
 using test::ProgramResult;
 using test::run_program;
+using test::run_shell;
 using test::TemporaryDirectory;
 using test::write_bytes;
 using testing::HasSubstr;
@@ -42,12 +43,12 @@ TEST_F(Verify, EndsWithZeroWhereNothingIsWrong) {
   }
 }
 
-TEST_F(Verify, EndsWithOneAndAListOtherwiseAndRepairs) {
+TEST_F(Verify, EndsWithFourAndAListOtherwiseAndRepairs) {
   const auto whole = nlohmann::json::parse(verify("--json").out);
   write_bytes(path("dataset/A2/plys/2.ply"), "ply");
   std::filesystem::remove(path("dataset/A2/gazebo_worlds/3.world"));
   const ProgramResult broken = verify();
-  EXPECT_EQ(broken.status, 1);
+  EXPECT_EQ(broken.status, 4);
   EXPECT_THAT(broken.out, StartsWith("A2/gazebo_worlds/3.world: cannot be opened: No such file or directory\n"
                                      "A2/plys/2.ply: bytes: found 3, expected "));
   EXPECT_THAT(broken.out, HasSubstr("; 2 faults found\n"));
@@ -65,8 +66,39 @@ TEST_F(Verify, EndsWithOneAndAListOtherwiseAndRepairs) {
 TEST_F(Verify, SaysAfterARepairWhatIsStillWrong) {
   write_bytes(path("dataset/A2/plys/77.ply"), "of nobody");
   const ProgramResult result = verify("--repair");
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 4);
   EXPECT_THAT(result.out, StartsWith("A2/plys/77.ply: not in the manifest\n"));
+}
+
+TEST_F(Verify, AControlFileThatIsNoFileOrNestedTooDeepIsToldOf) {
+  std::filesystem::remove(path("dataset/dataset.json"));
+  ASSERT_EQ(run_shell("mkfifo " + path("dataset/dataset.json")).status, 0);
+  const ProgramResult pipe = verify();
+  EXPECT_EQ(pipe.status, 4);
+  EXPECT_THAT(pipe.out, StartsWith("dataset.json: found a pipe, expected a regular file\n"));
+
+  std::filesystem::remove(path("dataset/dataset.json"));
+  write_bytes(path("dataset/dataset.json"),
+              "{\"digest\":" + std::string(400000, '[') + std::string(400000, ']') + "}");
+  const ProgramResult deep = verify();
+  EXPECT_EQ(deep.status, 4);
+  EXPECT_THAT(deep.out, StartsWith("dataset.json: found JSON nested too deep, expected at most 64 levels\n"));
+
+  std::filesystem::remove(path("dataset/recipe.toml"));
+  std::filesystem::create_symlink("/dev/zero", path("dataset/recipe.toml"));
+  const ProgramResult device = verify();
+  EXPECT_EQ(device.status, 2);
+  EXPECT_THAT(device.err, HasSubstr("recipe.toml: found a device, expected a regular file"));
+}
+
+TEST_F(Verify, NamesOfFilesArePrintedWithoutControlCharacters) {
+  write_bytes(path("dataset/A2/plys/\x1b[2Jnew\nline"), "of nobody");
+  EXPECT_THAT(verify().out, StartsWith("A2/plys/\\x1b[2Jnew\\nline: not in the manifest\n"));
+  const std::string name = "$(printf '/no\\033[31m\\nne')";
+  const ProgramResult missing = run_program("verify \"" + name + "\"");
+  EXPECT_EQ(missing.err,
+            "tanglebin: /no\\x1b[31m\\nne/recipe.toml: cannot be opened: No such file or directory\n");
+  EXPECT_THAT(run_program("verify \"" + name + "\" --\"" + name + "\"").err, testing::Not(HasSubstr("\x1b")));
 }
 
 TEST_F(Verify, BadInputIsExitStatusTwo) {

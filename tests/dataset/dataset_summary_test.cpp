@@ -56,7 +56,7 @@ TEST(DatasetSummary, IsNoneWhereThereIsNoFileAndAnErrorWhereItIsDamaged) {
   std::filesystem::remove(directory / "dataset.json");
   std::filesystem::create_directory(directory / "dataset.json");
   EXPECT_THAT(complaint([&] { read_dataset_summary(directory.path()); }),
-              HasSubstr("dataset.json: cannot be read: Is a directory"));
+              HasSubstr("dataset.json: found a directory, expected a regular file"));
 }
 
 TEST(DatasetSummary, SaysWhatTheBytesFollowFromBesideTheRecipe) {

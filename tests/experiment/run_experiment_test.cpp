@@ -2,27 +2,31 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/experiment/results.hpp"
 #include "tanglebin/runs/file_lock.hpp"
 #include "tests/experiment/small_dataset.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/processes.hpp"
 
 namespace tanglebin {
 namespace {
 
 using test::bytes_of;
+using test::complaint;
 using test::files_below;
+using test::finely_seen_recipe;
 using test::SmallDataset;
 using test::TemporaryDirectory;
 using test::write_bytes;
@@ -33,15 +37,6 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
-}
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 class RunExperiment : public testing::Test {
@@ -99,9 +94,9 @@ TEST_F(RunExperiment, ALineHasWhatModellingAndScoringTheCaseGive) {
   const Dataset dataset = dataset_.read();
   const RunId id{Method::paper, {"A", 3, 2}, 0.6};
   const CaseData data = read_case(dataset, id.scene);
-  const Model model = model_case(dataset, data, id, settings_);
+  const Model model = model_case(known_scene(recipe_of(dataset, id.scene), id.scene), data, id, settings_);
   EXPECT_EQ(lines_of(bytes_of(results / "results.jsonl")).at(0),
-            result_json(id, model, score_model(data, model)));
+            result_json(id, case_sha256(dataset, id.scene), model, score_model(data, model)));
 }
 
 TEST_F(RunExperiment, SaysWhatTheResultsFollowFromAndHowLongTheDatasetTook) {
@@ -179,12 +174,131 @@ TEST_F(RunExperiment, AnInterruptedRunGoesOnLater) {
   EXPECT_EQ(results_in(parts), results_in(whole));
 }
 
+/// What each line of results.jsonl says has failed, and how often.
+std::map<std::string, int> failures_in(const TemporaryDirectory& results) {
+  std::map<std::string, int> failures;
+  for (const std::string& line : lines_of(bytes_of(results / "results.jsonl"))) {
+    const auto json = nlohmann::json::parse(line);
+    if (!json.contains("failure")) continue;
+    EXPECT_FALSE(json.contains("micro_recall"));
+    ++failures[json.at("failure_of").get<std::string>() + ": " + json.at("failure").get<std::string>()];
+  }
+  return failures;
+}
+
+TEST_F(RunExperiment, ACaseWithoutAVisibleTubeIsALineForEachRunAndNotTriedAgain) {
+  const SmallDataset aside(finely_seen_recipe(30));
+  const TemporaryDirectory results;
+  const auto run_aside = [&] {
+    return run_experiment(aside.read(), settings_, cases(aside.read()), results.path(), 1);
+  };
+  EXPECT_TRUE(run_aside().is_complete());
+  const auto runs = static_cast<int>(6 * settings_.methods.size() * 2);
+  EXPECT_EQ(failures_in(results),
+            (std::map<std::string, int>{{"scene: no point of the cloud is on a tube", runs}}));
+  const auto before = files_below(results.path());
+  EXPECT_EQ(run_aside().progress.found, 6U);
+  EXPECT_EQ(files_below(results.path()), before);
+}
+
+TEST_F(RunExperiment, ACaseThatAMethodCannotModelIsALineAndTheOtherMethodsGoOn) {
+  Recipe recipe = finely_seen_recipe();
+  recipe.sets[0].kinds.push_back(recipe.sets[0].kinds[0]);
+  recipe.sets[0].kinds[1].radius = 0.009;
+  const SmallDataset two_radii(recipe);
+  const TemporaryDirectory results;
+  const ExperimentSummary summary =
+      run_experiment(two_radii.read(), settings_, {{"A", 3, 1}}, results.path(), 1);
+  EXPECT_TRUE(summary.is_complete());
+  EXPECT_EQ(failures_in(results),
+            (std::map<std::string, int>{
+                {"method: method: the paper's method handles a single radius; use --method axis", 2}}));
+  EXPECT_EQ(lines_of(bytes_of(results / "results.jsonl")).size(), settings_.methods.size() * 2);
+}
+
+/// A process that kills every other child of this one, until it goes.
+class KillerOfWorkers {
+public:
+  KillerOfWorkers() : process_(fork()) {
+    while (process_ == 0) {
+      for (const pid_t child : test::children_of(getppid())) {
+        if (child != getpid()) kill(child, SIGKILL);
+      }
+    }
+  }
+  ~KillerOfWorkers() {
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+  }
+  KillerOfWorkers(const KillerOfWorkers&) = delete;
+  KillerOfWorkers& operator=(const KillerOfWorkers&) = delete;
+
+private:
+  pid_t process_;
+};
+
+TEST_F(RunExperiment, ACaseThatCrashesIsALineForEachRunUntilALaterRunCanModelIt) {
+  const TemporaryDirectory whole;
+  const TemporaryDirectory results;
+  run(whole, {{"A", 1, 1}});
+  {
+    const KillerOfWorkers killer;
+    const ExperimentSummary summary = run(results, {{"A", 1, 1}});
+    EXPECT_FALSE(summary.is_complete());
+    EXPECT_EQ(summary.progress.failed, 1U);
+  }
+  const auto runs = static_cast<int>(settings_.methods.size() * 2);
+  EXPECT_EQ(
+      failures_in(results),
+      (std::map<std::string, int>{{"worker: its worker was ended by signal 9, the second time", runs}}));
+  EXPECT_EQ(run(results, {{"A", 1, 1}}).progress.made, 1U);
+  EXPECT_EQ(results_in(results), results_in(whole));
+}
+
+TEST_F(RunExperiment, ACaseThatIsAnotherSceneNowIsModelledAgain) {
+  const TemporaryDirectory results;
+  run(results);
+  const std::string before = bytes_of(dataset_ / "A3/plys/1.ply");
+  std::string after = before;
+  after[after.size() - 5] ^= 1;  // the blue of the last point, before its label
+  write_bytes(dataset_ / "A3/plys/1.ply", after);
+  std::string manifest = bytes_of(dataset_ / "manifest.jsonl");
+  manifest.replace(manifest.find(sha256(before)), sha256(before).size(), sha256(after));
+  write_bytes(dataset_ / "manifest.jsonl", manifest);
+
+  EXPECT_EQ(run(results).progress.made, 1U);
+  const TemporaryDirectory anew;
+  run(anew);
+  EXPECT_EQ(results_in(results), results_in(anew));
+}
+
+TEST_F(RunExperiment, ResultsOfACaseThatTheDatasetLacksAreNotMixedWithItsOwn) {
+  const TemporaryDirectory results;
+  run(results, {{"A", 1, 1}, {"A", 1, 2}});
+  const std::string manifest = bytes_of(dataset_ / "manifest.jsonl");
+  write_bytes(dataset_ / "manifest.jsonl", manifest.substr(manifest.find('\n') + 1));
+  EXPECT_THAT(complaint([&] { run(results); }),
+              HasSubstr("A1/1: the dataset lacks this case, which the results have"));
+}
+
+TEST_F(RunExperiment, AnotherBuildOfTheProgramIsNotLetIn) {
+  const TemporaryDirectory results;
+  run(results, {{"A", 1, 1}});
+  auto experiment = nlohmann::ordered_json::parse(bytes_of(results / "experiment.json"));
+  EXPECT_EQ(experiment.at("program_sha256"), sha256(bytes_of("/proc/self/exe")));
+  experiment["program_sha256"] = "of another";
+  write_bytes(results / "experiment.json", experiment.dump() + '\n');
+  EXPECT_THAT(complaint([&] { run(results); }),
+              HasSubstr("program_sha256: the directory belongs to another build of the program: it has "
+                        "\"of another\", this one "));
+}
+
 TEST_F(RunExperiment, AnotherExperimentIsNotLetIn) {
   const TemporaryDirectory results;
   run(results, {{"A", 1, 1}});
   const auto before = files_below(results.path());
   const auto expect_refused = [&](const std::string& difference) {
-    EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("experiment.json: " + difference));
+    EXPECT_THAT(complaint([&] { run(results); }), HasSubstr("experiment.json: " + difference));
     EXPECT_EQ(files_below(results.path()), before);
   };
   settings_.model.seed = 6;
@@ -203,7 +317,7 @@ TEST_F(RunExperiment, AnotherExperimentIsNotLetIn) {
 TEST_F(RunExperiment, ADatasetIsNotWrittenInto) {
   const auto before = files_below(dataset_ / "");
   const Dataset dataset = dataset_.read();
-  EXPECT_THAT(error_of([&] { run_experiment(dataset, settings_, cases(dataset), dataset.directory, 1); }),
+  EXPECT_THAT(complaint([&] { run_experiment(dataset, settings_, cases(dataset), dataset.directory, 1); }),
               HasSubstr("found a dataset, expected a directory for results"));
   EXPECT_EQ(files_below(dataset_ / ""), before);
 }
@@ -212,7 +326,7 @@ TEST_F(RunExperiment, OneRunAtATime) {
   const TemporaryDirectory results;
   const auto other = FileLock::take(results / "journal.jsonl");
   ASSERT_TRUE(other.has_value());
-  EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("another run is writing here"));
+  EXPECT_THAT(complaint([&] { run(results); }), HasSubstr("another run is writing here"));
 }
 
 TEST_F(RunExperiment, AMissingCloudIsAnErrorThatNamesItAndLosesNoFinishedCase) {
@@ -221,7 +335,7 @@ TEST_F(RunExperiment, AMissingCloudIsAnErrorThatNamesItAndLosesNoFinishedCase) {
   run(whole);
   const std::string cloud = bytes_of(dataset_ / "A1/plys/3.ply");
   std::filesystem::remove(dataset_ / "A1/plys/3.ply");
-  EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("A1/plys/3.ply: cannot be opened"));
+  EXPECT_THAT(complaint([&] { run(results); }), HasSubstr("A1/plys/3.ply: cannot be opened"));
   write_bytes(dataset_ / "A1/plys/3.ply", cloud);
   EXPECT_EQ(run(results).progress.found, 2U);
   EXPECT_EQ(results_in(results), results_in(whole));
@@ -232,7 +346,7 @@ TEST_F(RunExperiment, ACloudThatHasChangedIsAnErrorThatNamesIt) {
   std::string bytes = bytes_of(dataset_ / "A3/plys/1.ply");
   bytes.back() ^= 1;
   write_bytes(dataset_ / "A3/plys/1.ply", bytes);
-  EXPECT_THAT(error_of([&] { run(results); }), HasSubstr("A3/plys/1.ply: sha256: found "));
+  EXPECT_THAT(complaint([&] { run(results); }), HasSubstr("A3/plys/1.ply: sha256: found "));
 }
 
 }  // namespace

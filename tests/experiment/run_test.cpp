@@ -100,7 +100,8 @@ TEST(ResultJson, HasTheScoresOfTheModelComputedDirectly) {
   const Dataset dataset = directory.read();
   const RunId run{Method::paper, {"A", 3, 1}, 1.0};
   const CaseData data = read_case(dataset, run.scene);
-  const Model model = model_case(dataset, data, run, {.ratios = {}, .model = {.seed = 5}});
+  const Model model = model_case(known_scene(recipe_of(dataset, run.scene), run.scene), data, run,
+                                 {.ratios = {}, .model = {.seed = 5}});
 
   std::vector<std::int32_t> truth;
   std::vector<std::int32_t> labels;
@@ -111,7 +112,7 @@ TEST(ResultJson, HasTheScoresOfTheModelComputedDirectly) {
   const Score expected = score(truth, labels);
   const TubesScore expected_tubes = score_tubes(data.tubes, model.tubes);
 
-  const auto json = nlohmann::json::parse(result_json(run, model, score_model(data, model)));
+  const auto json = nlohmann::json::parse(result_json(run, "0f", model, score_model(data, model)));
   EXPECT_GT(expected.micro_recall, 0);
   EXPECT_EQ(json.at("points"), expected.points);
   EXPECT_EQ(json.at("micro_recall").get<double>(), expected.micro_recall);
@@ -138,7 +139,8 @@ TEST(ModelCase, ModelsTheSameAgainAndAnotherSeedAnother) {
   const RunId run{Method::paper, {"A", 3, 1}, 0.8};
   const CaseData data = read_case(dataset, run.scene);
   const auto model = [&](std::uint64_t seed) {
-    return model_case(dataset, data, run, {.ratios = {}, .model = {.seed = seed}});
+    return model_case(known_scene(recipe_of(dataset, run.scene), run.scene), data, run,
+                      {.ratios = {}, .model = {.seed = seed}});
   };
   EXPECT_EQ(model(1).labels, model(1).labels);
   EXPECT_NE(model(1).filtered, model(2).filtered);

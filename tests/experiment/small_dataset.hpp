@@ -7,12 +7,17 @@
 
 namespace tanglebin::test {
 
-/// small_recipe()'s six cases on disk, seen by a camera fine enough to model tubes.
+/// small_recipe() with a camera fine enough to model tubes, at `x` metres from the bin's centre.
+inline Recipe finely_seen_recipe(double x = 0) {
+  Recipe recipe = small_recipe();
+  recipe.camera = downward_camera(480, 300, focal_length_from_hfov(480, 1.22), {x, 0, 2});
+  return recipe;
+}
+
+/// A recipe's cases on disk.
 class SmallDataset {
 public:
-  SmallDataset() {
-    Recipe recipe = small_recipe();
-    recipe.camera = downward_camera(480, 300, focal_length_from_hfov(480, 1.22), {0, 0, 2});
+  explicit SmallDataset(const Recipe& recipe = finely_seen_recipe()) {
     generate_dataset(recipe, cases(recipe), directory_.path(), 1);
   }
 

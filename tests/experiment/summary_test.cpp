@@ -6,7 +6,11 @@ namespace tanglebin {
 namespace {
 
 RunResult result(const CaseId& id, double ratio, double micro_recall) {
-  return {{Method::paper, id, ratio}, micro_recall, ""};
+  return {{Method::paper, id, ratio}, "", micro_recall, std::nullopt, ""};
+}
+
+RunResult failed(const CaseId& id, double ratio, FailureOf of) {
+  return {{Method::paper, id, ratio}, "", 0, RunFailure{of, "why"}, ""};
 }
 
 TEST(RatioToShow, IsTheNearestToThatOfThePapersFigure) {
@@ -28,6 +32,27 @@ TEST(MeanMicroRecalls, AreOverTheCasesOfASetAndNumberOfTubesAtOneRatio) {
   EXPECT_EQ(means[1].mean, 0.25);
   EXPECT_EQ(means[2].set, "B");
   EXPECT_EQ(means[2].mean, 0.125);
+}
+
+TEST(MeanMicroRecalls, AFailedRunIsAZeroAndACaseWithoutAVisibleTubeNone) {
+  const std::vector<RunResult> results = {
+      result({"A", 1, 1}, 0.3, 0.5), failed({"A", 1, 2}, 0.3, FailureOf::method),
+      failed({"A", 1, 3}, 0.3, FailureOf::worker), failed({"A", 1, 4}, 0.3, FailureOf::scene),
+      failed({"A", 1, 4}, 0.4, FailureOf::scene)};
+  const auto means = mean_micro_recalls(results, 0.3);
+  ASSERT_EQ(means.size(), 1U);
+  EXPECT_EQ(means[0].cases, 3U);
+  EXPECT_EQ(means[0].failed, 2U);
+  EXPECT_DOUBLE_EQ(means[0].mean, 0.5 / 3);
+  EXPECT_EQ(count_failures(results).failed_runs, 2U);
+  EXPECT_EQ(count_failures(results).cases_unscored, 1U);
+}
+
+TEST(Examples, AreOfRunsThatDidNotFail) {
+  const auto found = examples({failed({"A", 1, 1}, 0.3, FailureOf::method), result({"A", 1, 2}, 0.3, 0.2)},
+                              Method::paper, 0.3);
+  ASSERT_EQ(found.size(), 3U);
+  for (const Example& example : found) EXPECT_EQ(example.result.run.scene.number, 2);
 }
 
 TEST(Examples, AreTheBestTheMedianAndTheWorstAndOfEqualsTheFirst) {

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/temporary_directory.hpp"
 
@@ -161,6 +162,11 @@ TEST_F(SafeFile, ADirectoryThatTakesNoFilesIsAnErrorThatSaysSo) {
               AllOf(HasSubstr("/proc/self/fdinfo/1.ply: cannot write: ")));
 }
 
+TEST_F(SafeFile, AWrongPathIsBadInputAndAFullDeviceARefusalOfTheSystem) {
+  EXPECT_THROW(write_file(directory_ / "missing" / "1.ply", "x"), InputError);
+  EXPECT_THROW(write_file("/dev/full", "x"), SystemError);
+}
+
 TEST_F(SafeFile, ManyWritersOfOneFileEachWriteAWholeOne) {
   const fs::path file = directory_ / "1.ply";
   std::vector<std::thread> writers;
@@ -218,6 +224,18 @@ TEST_F(SafeFile, StagedSaysWhatItIsThatCannotBeWritten) {
   EXPECT_THAT(complaint([&] { write_staged(directory_ / "1.ply", std::string(100, 'x'), directory_); }),
               HasSubstr("1.ply: cannot write: File too large"));
   EXPECT_THAT(names_in(directory_), IsEmpty());
+}
+
+TEST_F(SafeFile, AFolderThatALinkLeadsOutOfTheDirectoryIsFoundBeforeItIsMade) {
+  fs::create_directories(directory_ / "dataset" / "A1");
+  fs::create_directory(directory_ / "elsewhere");
+  fs::create_symlink("../elsewhere", directory_ / "dataset" / "A2");
+  const auto check = [&](const fs::path& file) {
+    return complaint([&] { expect_below(directory_ / "dataset", directory_ / "dataset" / file); });
+  };
+  EXPECT_EQ(check("A1/plys/1.ply"), "none");
+  EXPECT_EQ(check("A3/plys/1.ply"), "none");
+  EXPECT_THAT(check("A2/plys/1.ply"), HasSubstr("expected a folder below the dataset's directory"));
 }
 
 using MakeDirectories = SafeFile;

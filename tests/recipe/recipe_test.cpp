@@ -749,6 +749,10 @@ TEST(RecipeErrors, NameANumberOutOfItsRange) {
   EXPECT_THAT(complaint("[scanner]\nwidth = 0\n" + smallest), HasSubstr("r.toml:2: scanner.width: found 0"));
   EXPECT_THAT(complaint("[scanner]\nwidth = -2147483648\n" + smallest),
               HasSubstr("r.toml:2: scanner.width: found"));
+  EXPECT_EQ(
+      complaint("[scanner]\nwidth = 65535\nheight = 65535\n" + smallest),
+      "r.toml:2: scanner.width: found 65535 x 65535 pixels, expected an image of at most 67108864 pixels "
+      "(8192 x 8192)");
   EXPECT_EQ(complaint("[scanner]\nhfov_deg = 180\n" + smallest),
             "r.toml:2: scanner.hfov_deg: found 180, expected an angle between 0 and 180");
   EXPECT_EQ(complaint("[scanner]\nfocal_length_px = -5\n" + smallest),

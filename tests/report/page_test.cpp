@@ -78,17 +78,33 @@ TEST(Page, Table2HasMeansBesideThePapersForSetA) {
 
 TEST(Page, Figure8HasTheSpreadAndWhatThePaperStates) {
   const std::string page = report_page(small_results());
-  EXPECT_THAT(page,
-              HasSubstr(row({"10", "2", "0.850", "0.071", "0.800", "0.825", "0.850", "0.875", "0.900"})));
   EXPECT_THAT(
-      page,
-      HasSubstr(row({"10", "1", "0.700", "–", "0.700", "0.700", "0.700", "0.700", "0.700", "*≈ 0.831"})));
+      page, HasSubstr(row({"10", "2", "0", "0.850", "0.071", "0.800", "0.825", "0.850", "0.875", "0.900"})));
+  EXPECT_THAT(page, HasSubstr(row({"10", "1", "0", "0.700", "–", "0.700", "0.700", "0.700", "0.700", "0.700",
+                                   "*≈ 0.831"})));
   EXPECT_THAT(page, HasSubstr("Set B, published"));
 }
 
 TEST(Page, OtherMeasuresAreMeansAndSharesOfAllJoins) {
-  EXPECT_THAT(report_page(small_results()), HasSubstr(row({"10", "2", "0.500", "0.250", "0.125", "0.750",
+  EXPECT_THAT(report_page(small_results()), HasSubstr(row({"10", "2", "0", "0.500", "0.250", "0.125", "0.750",
                                                            "2.10", "60.0 % of 20", "75.0 % of 16"})));
+}
+
+TEST(Page, AFailedRunCountsAsOneThatFoundNothingAndIsCounted) {
+  Results results = small_results();
+  results.scores[1] = {.run = run_of("A", 2), .failure = "no <points>"};
+  results.unscored = {run_of("A", 3)};
+  const std::string page = report_page(results);
+  EXPECT_THAT(
+      page, HasSubstr(row({"10", "2", "1", "0.450", "0.636", "0.000", "0.225", "0.450", "0.675", "0.900"})));
+  EXPECT_THAT(page, HasSubstr(row({"10", "2", "1", "0.250", "0.125", "0.062", "0.375", "2.10", "60.0 % of 10",
+                                   "75.0 % of 8"})));
+  EXPECT_THAT(
+      page,
+      HasSubstr("1 run failed; a failed run counts as one that found nothing. The first, method paper at "
+                "ratio 0.3 on A10/2: no &lt;points&gt;. "));
+  EXPECT_THAT(page, HasSubstr("1 case without a visible tube"));
+  EXPECT_THAT(page, HasSubstr("2 scored, 1 failed; seed 5"));
 }
 
 TEST(Page, TheHeadHasTheHeadlineNumbers) {

@@ -118,7 +118,7 @@ TEST(Plot, WithoutGnuplotItIsSaidWhatToInstall) {
   const test::TemporaryDirectory empty;
   const std::string path = std::getenv("PATH");
   setenv("PATH", empty.path().c_str(), 1);
-  EXPECT_THAT([] { svg(two_lines()); }, ThrowsMessage<std::runtime_error>(HasSubstr("gnuplot-nox")));
+  EXPECT_THAT([] { svg(two_lines()); }, ThrowsMessage<SystemError>(HasSubstr("gnuplot-nox")));
   setenv("PATH", path.c_str(), 1);
 }
 

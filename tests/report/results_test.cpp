@@ -67,6 +67,19 @@ TEST_F(ResultsDirectory, ATubeThatWasNotFoundHasNoCentreLineError) {
   EXPECT_FALSE(read().scores[0].centre_line_error.has_value());
 }
 
+TEST_F(ResultsDirectory, ARunThatFailedHasItsReasonAndFoundNothing) {
+  const std::string run = R"({"set":"A","tubes":3,"case":1,"method":"paper","ratio":0.3,"failure_of":)";
+  test::write_bytes(directory_ / "results.jsonl",
+                    run + "\"method\",\"failure\":\"why\"}\n" + run + "\"scene\",\"failure\":\"dark\"}\n");
+  const Results results = read();
+  ASSERT_EQ(results.scores.size(), 1U);
+  EXPECT_EQ(results.scores[0].failure, "why");
+  EXPECT_EQ(results.scores[0].micro_recall, 0);
+  EXPECT_EQ(results.unscored.size(), 1U);
+  change("results.jsonl", "\"scene\"", "\"moon\"");
+  expect_error("results.jsonl:2: failure_of: ", "found 'moon', expected scene, method or worker");
+}
+
 TEST_F(ResultsDirectory, WhatIsMissingIsEmpty) {
   for (const char* file : {"results.jsonl", "times.jsonl", "generation.jsonl", "pictures.jsonl"}) {
     std::filesystem::remove(directory_ / file);

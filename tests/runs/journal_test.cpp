@@ -162,7 +162,7 @@ TEST(Journal, IsNoOtherFileOfTheUsers) {
   std::filesystem::create_symlink("precious", directory / "journal-x.jsonl");
   EXPECT_THAT(journals_in(directory.path()), ElementsAre());
   EXPECT_THAT(complaint([&] { Journal(directory.path(), "x"); }),
-              testing::HasSubstr("journal-x.jsonl: Too many levels of symbolic links"));
+              testing::HasSubstr("journal-x.jsonl: cannot be locked: Too many levels of symbolic links"));
   EXPECT_EQ(bytes_of(directory / "precious"), "of the user");
 }
 
@@ -185,7 +185,7 @@ TEST(Lines, OfAFileThatIsThereButCannotBeReadAreAnError) {
             (directory / "file").string() + ": cannot be opened: Too many levels of symbolic links");
   std::filesystem::remove(directory / "file");
   std::filesystem::create_directory(directory / "file");
-  EXPECT_EQ(complaint(read), (directory / "file").string() + ": cannot be read: Is a directory");
+  EXPECT_EQ(complaint(read), (directory / "file").string() + ": found a directory, expected a regular file");
 }
 
 }  // namespace

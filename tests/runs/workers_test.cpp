@@ -1,5 +1,6 @@
 #include "tanglebin/runs/workers.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -153,6 +154,12 @@ TEST(Workers, AnExceptionIsTriedOnceMoreButNotWhatIsImpossible) {
             (std::map<std::string, std::string>{{"0", "xx"}, {"1", "x"}, {"2", "x"}}));
 }
 
+TEST(Workers, ARefusalOfTheSystemEndsTheRunAsWhatItIs) {
+  const auto refuse = [](std::size_t) -> std::string { throw SystemError("1.ply", "cannot write: full"); };
+  EXPECT_THAT([&] { run_in_workers(1, 3, refuse, {}); },
+              testing::ThrowsMessage<SystemError>("1.ply: cannot write: full"));
+}
+
 TEST(Workers, OnAnInterruptTheTasksUnderWayAreFinishedAndTheRestLeft) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const TemporaryDirectory directory;
@@ -164,6 +171,7 @@ TEST(Workers, OnAnInterruptTheTasksUnderWayAreFinishedAndTheRestLeft) {
                                          },
                                          {});
     EXPECT_FALSE(complete);
+    EXPECT_EQ(interrupting_signal(), signal);
     const std::size_t done = files_below(directory.path()).size();
     EXPECT_GT(done, 10U);  // the task that interrupted was finished too
     EXPECT_LT(done, 1000U);
