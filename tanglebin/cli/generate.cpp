@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/fill_report.hpp"
 #include "tanglebin/cli/many_cases.hpp"
+#include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
 #include "tanglebin/recipe/recipe.hpp"
@@ -45,16 +47,36 @@ std::optional<std::string> environment_variable(const std::string& name) {
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
+Shard shard_of_the_array() {
+  if (const std::optional<Shard> shard = shard_from(environment_variable)) return *shard;
+  throw InputError({"", 0, "--shard"},
+                   "auto, but neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX is set",
+                   "a Slurm job array or a Kubernetes indexed job; give I/N elsewhere");
+}
+
+// An array may be one over recipes or seeds, so a part is only made if it is asked for.
+void mention_array() {
+  if (const std::optional<std::string> variable = array_variable(environment_variable)) {
+    print_error("tanglebin: making all cases, though {} is set; --shard auto makes only this task's part\n",
+                *variable);
+  }
+}
+
 std::optional<Shard> shard_of(const GenerateArguments& arguments) {
-  if (arguments.shard) return parse_shard(*arguments.shard, "--shard");
-  return shard_from(environment_variable);
+  if (!arguments.shard) return std::nullopt;
+  if (*arguments.shard == "auto") return shard_of_the_array();
+  return parse_shard(*arguments.shard, "--shard");
 }
 
 void generate(const GenerateArguments& arguments) {
   const Recipe recipe = recipe_of(arguments);
   const std::optional<Shard> shard = shard_of(arguments);
   std::vector<CaseId> wanted = chosen(arguments.many, cases(recipe), arguments.recipe);
-  if (shard) wanted = part_of(*shard, wanted);
+  if (shard) {
+    wanted = part_of(*shard, wanted);
+  } else {
+    mention_array();
+  }
   const Clock::time_point start = Clock::now();
   const FillSummary summary = [&] {
     ProgressReport progress(arguments.progress);
@@ -76,7 +98,8 @@ void add_generate(CLI::App& app) {
   add_options(*command, arguments->many);
   command->add_option(
       "--shard", arguments->shard,
-      "Generate part I of N of the cases (I/N) [default: from a Slurm job array or Kubernetes indexed job]");
+      "Generate part I of N of the cases (I/N); auto: this task's of a Slurm job array or Kubernetes indexed "
+      "job");
   command->add_option("--seed", arguments->seed, "Seed, instead of the recipe's")
       ->check(CLI::NonNegativeNumber);
   add_progress_option(*command, arguments->progress);
