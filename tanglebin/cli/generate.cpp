@@ -29,6 +29,7 @@ struct GenerateArguments {
   ManyCases many;
   std::optional<std::string> shard;
   std::optional<std::int64_t> seed;
+  double case_limit = std::chrono::duration<double>(default_case_limit).count();  ///< s
   ProgressStyle progress = ProgressStyle::line;
   bool json = false;
 };
@@ -80,8 +81,14 @@ void generate(const GenerateArguments& arguments) {
   const Clock::time_point start = Clock::now();
   const FillSummary summary = [&] {
     ProgressReport progress(arguments.progress);
-    return generate_dataset(recipe, wanted, arguments.out, arguments.many.jobs, progress.observer(),
-                            shard ? name_of(*shard) : "");
+    return generate_cases({.recipe = recipe,
+                           .wanted = wanted,
+                           .directory = arguments.out,
+                           .shard = shard,
+                           .jobs = arguments.many.jobs,
+                           .case_limit = std::chrono::duration_cast<TimeLimit>(
+                               std::chrono::duration<double>(arguments.case_limit))},
+                          progress.observer());
   }();
   report_fill({arguments.out, "generated", arguments.json, arguments.progress}, summary,
               seconds_since(start));
@@ -100,13 +107,16 @@ void add_generate(CLI::App& app) {
       "--shard", arguments->shard,
       "Generate part I of N of the cases (I/N); auto: this task's of a Slurm job array or Kubernetes indexed "
       "job");
+  command->add_option("--case-limit", arguments->case_limit, "Seconds after which a case has failed")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-3, 1e9));
   command->add_option("--seed", arguments->seed, "Seed, instead of the recipe's")
       ->check(CLI::NonNegativeNumber);
   add_progress_option(*command, arguments->progress);
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin generate recipes/set-a.toml --out dataset --tubes 10 --cases 1-3\n"
-      "Ctrl-C finishes the cases in progress; run the same command again to resume.\n"
+      "Ctrl-C finishes the cases in progress, once more ends at once; run the same command again to resume.\n"
       "Exit status: 1 if cases failed, 130 if interrupted.\n"
       "Formats: docs/formats.md. Clusters: docs/cluster.md.");
   command->callback([arguments] { generate(*arguments); });

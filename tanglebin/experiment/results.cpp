@@ -169,7 +169,7 @@ FinishedRuns finished_runs(const fs::path& directory) {
 }
 
 void claim(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings) {
-  if (fs::exists(directory / "manifest.jsonl"))
+  if (fs::exists(directory / "recipe.toml"))
     throw InputError({directory.string(), 0, ""}, "a dataset", "a directory for results");
   const fs::path file = experiment_of(directory);
   const Json wanted = experiment_json(dataset, settings);

@@ -73,7 +73,7 @@ TEST_F(Generate, MakesTheRecipesCasesAndSaysSo) {
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("dataset: 9 cases generated in "));
   EXPECT_EQ(result.err, "");  // no progress where standard error is no terminal
-  EXPECT_EQ(files_below(out()).size(), 9 * 3 + 4U);
+  EXPECT_EQ(files_below(out()).size(), 9 * 3 + 5U);
 }
 
 TEST_F(Generate, MakesOnlyTheCasesAskedForAndGoesOnLater) {
@@ -261,6 +261,26 @@ TEST_F(Generate, BadInputIsExitStatusTwoAndOneLine) {
                "--shard: found '3/2', expected I/N with I from 1 to N, such as 2/8, or auto");
   expect_error("generate " + recipe_.string() + " --out /proc/dataset", "/proc/dataset");
   EXPECT_FALSE(std::filesystem::exists(out()));
+  std::filesystem::create_directory(out("results"));
+  write_bytes(out("results") + "/experiment.json", "{}");
+  expect_error(command("", "results"),
+               "results: found the results of an experiment, expected a dataset or an empty directory");
+}
+
+TEST_F(Generate, ACaseThatTakesTooLongIsAFailedOne) {
+  // No heap is at rest so soon, and nobody waits for so many attempts.
+  write_bytes(recipe_, "attempts = 1000000000\n" + std::string(recipe) + "[settle]\ntime_limit = 0.05\n");
+  const auto result = run_program(command("--set A --tubes 2 --cases 1 --case-limit 0.3"));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("tanglebin: A2/1: failed: took longer than 0.3 s"));
+}
+
+TEST_F(Generate, AShardSaysThatOthersAreToCome) {
+  EXPECT_THAT(run_program(command("--shard 1/2")).out,
+              HasSubstr("dataset: other shards are to come or in progress; the last to end completes the "
+                        "manifest\n"));
+  EXPECT_TRUE(nlohmann::json::parse(run_program(command("--shard 1/2 --json")).out)["dataset"].is_null());
+  EXPECT_THAT(run_program(command("--shard 2/2")).out, HasSubstr("dataset: complete, 9 cases, digest "));
 }
 
 TEST_F(Generate, WrongUsageIsExitStatus64) {
