@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -25,13 +26,9 @@ MadeCase write_name(const CaseId& id, const CaseWriter& writer) {
 }
 
 Recipe recipe_of(int cases) {
-  Recipe recipe;
-  SetRecipe set;
-  set.name = "A";
-  set.tubes = {1};
-  set.cases = cases;
-  recipe.sets.push_back(set);
-  return recipe;
+  std::istringstream text("[[set]]\nname = \"A\"\ntubes = [1]\ncases = " + std::to_string(cases) +
+                          "\n[set.tube]\nradius = 0.0125\nmass = 0.5\nlength = 0.5\nbend_max_deg = 30\n");
+  return read_recipe(text, "shards");
 }
 
 void run_shard(const Recipe& recipe, const std::filesystem::path& directory, const Shard& shard) {

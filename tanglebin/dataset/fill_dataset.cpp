@@ -25,20 +25,19 @@ std::string text_of(const Recipe& recipe) {
   return out.str();
 }
 
-// Shards that begin at the same time may have their journals here before the recipe.
-bool is_foreign(const fs::path& entry, const std::vector<fs::path>& journals) {
-  return !entry.filename().string().starts_with('.') && std::ranges::find(journals, entry) == journals.end();
-}
-
+// Other shards may begin at the same time: of theirs, journals may be here before the recipe, and new ones
+// come. So the journals are listed after all else, and the recipe is looked for at the end.
 void expect_dataset_or_empty(const fs::path& directory) {
-  const std::vector<fs::path> journals = journals_in(directory);
-  std::set<std::string> foreign;
+  std::set<fs::path> foreign;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
-    if (is_foreign(entry.path(), journals)) foreign.insert(entry.path().filename().string());
+    const bool is_hidden = entry.path().filename().string().starts_with('.');
+    if (!is_hidden) foreign.insert(entry.path());
   }
+  for (const fs::path& journal : journals_in(directory)) foreign.erase(journal);
   if (foreign.empty() || fs::exists(directory / "recipe.toml")) return;
   throw InputError({directory.string(), 0, ""},
-                   foreign.contains("experiment.json") ? "the results of an experiment" : *foreign.begin(),
+                   foreign.contains(directory / "experiment.json") ? "the results of an experiment"
+                                                                   : foreign.begin()->filename().string(),
                    "a dataset or an empty directory");
 }
 

@@ -130,8 +130,6 @@ void validate(const SettleSettings& settings) {
   positive(settings.gravity, "gravity");
   not_negative(settings.friction, "friction");
   require(settings.step > 0 && settings.step <= 0.01, "step", settings.step, "more than 0, at most 0.01 s");
-  require(settings.time_limit <= 1e6 * settings.step, "step", settings.step,
-          "at least a millionth of settle.time_limit");
   require(settings.iterations >= 1, "iterations", settings.iterations, "at least 1");
   require(settings.iterations_max >= settings.iterations, "iterations_max", settings.iterations_max,
           "at least settle.iterations");
@@ -149,6 +147,8 @@ void validate(const SettleSettings& settings) {
   positive(settings.proof_motion, "proof_motion");
   positive(settings.overlap_max, "overlap_max");
   positive(settings.time_limit, "time_limit");
+  require(settings.time_limit <= 1e6 * settings.step, "step", settings.step,
+          "at least a millionth of settle.time_limit");
 }
 
 }  // namespace tanglebin
