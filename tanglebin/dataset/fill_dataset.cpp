@@ -215,7 +215,7 @@ private:
     const DirectoryLock lock(request_.directory);
     std::vector<fs::path> journals = journals_in(request_.directory);
     // Shards mostly end in order, so the next one is the most likely to be in progress.
-    std::ranges::rotate(journals, std::ranges::upper_bound(journals, own));
+    std::rotate(journals.begin(), std::ranges::upper_bound(journals, own), journals.end());
     if (are_shards_to_come(journals) || std::ranges::any_of(journals, is_locked)) return std::nullopt;
     return seal(journals);
   }
