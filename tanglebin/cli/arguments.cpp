@@ -136,7 +136,7 @@ std::vector<double> parse_ratios(std::string_view text, const std::string& optio
 Shard parse_shard(std::string_view text, const std::string& option) {
   const auto parts = parse_pair(text, '/');
   if (!parts || parts->first > parts->second) {
-    throw InputError({"", 0, option}, excerpt(text), "I/N with I from 1 to N, such as 2/8");
+    throw InputError({"", 0, option}, excerpt(text), "I/N with I from 1 to N, such as 2/8, or auto");
   }
   return {parts->first, parts->second};
 }

@@ -11,7 +11,6 @@ namespace {
 
 nlohmann::ordered_json json_of(const FillReport& report, const FillSummary& summary, double seconds) {
   const RunProgress& run = summary.progress;
-  const DatasetSummary& dataset = summary.dataset;
   nlohmann::ordered_json json{{"directory", report.directory},
                               {"wanted", run.wanted},
                               {"found", run.found},
@@ -20,29 +19,33 @@ nlohmann::ordered_json json_of(const FillReport& report, const FillSummary& summ
                               {"rejected", run.rejected},
                               {"complete", summary.is_complete()},
                               {"seconds", seconds}};
-  json["dataset"] = {{"cases", dataset.cases},
-                     {"recipe_cases", dataset.recipe_cases},
-                     {"failed", dataset.failed},
-                     {"digest", dataset.digest}};
+  json["dataset"] = nullptr;
+  if (const auto& dataset = summary.dataset) {
+    json["dataset"] = {{"cases", dataset->cases},
+                       {"recipe_cases", dataset->recipe_cases},
+                       {"failed", dataset->failed},
+                       {"digest", dataset->digest}};
+  }
   return json;
+}
+
+std::string text_of(const std::optional<DatasetSummary>& dataset) {
+  if (!dataset) return "other shards are to come or in progress; the last to end completes the manifest";
+  const std::string cases = dataset->is_complete() ? fmt::format("complete, {} cases", dataset->cases)
+                                                   : fmt::format("{} of the recipe's {} cases",
+                                                                 dataset->cases, dataset->recipe_cases);
+  return fmt::format("{}, digest {}", cases, dataset->digest);
 }
 
 void print_text(const FillReport& report, const FillSummary& summary, double seconds) {
   const RunProgress& run = summary.progress;
-  const DatasetSummary& dataset = summary.dataset;
   print_out("{}: {} cases {} in {:.1f} s, {} already there, {} attempts rejected", report.directory, run.made,
             report.verb, seconds, run.found, run.rejected);
   if (run.failed > 0) print_out(", {} failed", run.failed);
   if (summary.was_stopped()) {
     print_out("; stopped, {} to go", run.wanted - run.found - run.made - run.failed);
   }
-  print_out("\n{}: ", report.directory);
-  if (dataset.is_complete()) {
-    print_out("complete, {} cases", dataset.cases);
-  } else {
-    print_out("{} of the recipe's {} cases", dataset.cases, dataset.recipe_cases);
-  }
-  print_out(", digest {}\n", dataset.digest);
+  print_out("\n{}: {}\n", report.directory, text_of(summary.dataset));
 }
 
 }  // namespace

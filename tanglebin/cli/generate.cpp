@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/fill_report.hpp"
 #include "tanglebin/cli/many_cases.hpp"
+#include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
 #include "tanglebin/recipe/recipe.hpp"
@@ -27,6 +29,7 @@ struct GenerateArguments {
   ManyCases many;
   std::optional<std::string> shard;
   std::optional<std::int64_t> seed;
+  double case_limit = std::chrono::duration<double>(default_case_limit).count();  ///< s
   ProgressStyle progress = ProgressStyle::line;
   bool json = false;
 };
@@ -45,21 +48,47 @@ std::optional<std::string> environment_variable(const std::string& name) {
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
+Shard shard_of_the_array() {
+  if (const std::optional<Shard> shard = shard_from(environment_variable)) return *shard;
+  throw InputError({"", 0, "--shard"},
+                   "auto, but neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX is set",
+                   "a Slurm job array or a Kubernetes indexed job; give I/N elsewhere");
+}
+
+// An array may be one over recipes or seeds, so a part is only made if it is asked for.
+void mention_array() {
+  if (const std::optional<std::string> variable = array_variable(environment_variable)) {
+    print_error("tanglebin: making all cases, though {} is set; --shard auto makes only this task's part\n",
+                *variable);
+  }
+}
+
 std::optional<Shard> shard_of(const GenerateArguments& arguments) {
-  if (arguments.shard) return parse_shard(*arguments.shard, "--shard");
-  return shard_from(environment_variable);
+  if (!arguments.shard) return std::nullopt;
+  if (*arguments.shard == "auto") return shard_of_the_array();
+  return parse_shard(*arguments.shard, "--shard");
 }
 
 void generate(const GenerateArguments& arguments) {
   const Recipe recipe = recipe_of(arguments);
   const std::optional<Shard> shard = shard_of(arguments);
   std::vector<CaseId> wanted = chosen(arguments.many, cases(recipe), arguments.recipe);
-  if (shard) wanted = part_of(*shard, wanted);
+  if (shard) {
+    wanted = part_of(*shard, wanted);
+  } else {
+    mention_array();
+  }
   const Clock::time_point start = Clock::now();
   const FillSummary summary = [&] {
     ProgressReport progress(arguments.progress);
-    return generate_dataset(recipe, wanted, arguments.out, arguments.many.jobs, progress.observer(),
-                            shard ? name_of(*shard) : "");
+    return generate_cases({.recipe = recipe,
+                           .wanted = wanted,
+                           .directory = arguments.out,
+                           .shard = shard,
+                           .jobs = arguments.many.jobs,
+                           .case_limit = std::chrono::duration_cast<TimeLimit>(
+                               std::chrono::duration<double>(arguments.case_limit))},
+                          progress.observer());
   }();
   report_fill({arguments.out, "generated", arguments.json, arguments.progress}, summary,
               seconds_since(start));
@@ -76,14 +105,18 @@ void add_generate(CLI::App& app) {
   add_options(*command, arguments->many);
   command->add_option(
       "--shard", arguments->shard,
-      "Generate part I of N of the cases (I/N) [default: from a Slurm job array or Kubernetes indexed job]");
+      "Generate part I of N of the cases (I/N); auto: this task's of a Slurm job array or Kubernetes indexed "
+      "job");
+  command->add_option("--case-limit", arguments->case_limit, "Seconds after which a case has failed")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-3, 1e9));
   command->add_option("--seed", arguments->seed, "Seed, instead of the recipe's")
       ->check(CLI::NonNegativeNumber);
   add_progress_option(*command, arguments->progress);
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin generate recipes/set-a.toml --out dataset --tubes 10 --cases 1-3\n"
-      "Ctrl-C finishes the cases in progress; run the same command again to resume.\n"
+      "Ctrl-C finishes the cases in progress, once more ends at once; run the same command again to resume.\n"
       "Exit status: 3 if cases failed, 130 if interrupted.\n"
       "Formats: docs/formats.md. Clusters: docs/cluster.md.");
   command->callback([arguments] { generate(*arguments); });

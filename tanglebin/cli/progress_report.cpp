@@ -44,11 +44,12 @@ ProgressReport::~ProgressReport() {
 }
 
 RunObserver ProgressReport::observer() {
+  RunObserver observer{.stopping = [this] { print_stopping(); }};
   if (style_ == ProgressStyle::json) {
-    return {.progress = [this](const RunProgress& progress) { print_progress(progress); },
-            .ended = [](const CaseEvent& event, const RunProgress&) { print_end_of_case(event); }};
+    observer.progress = [this](const RunProgress& progress) { print_progress(progress); };
+    observer.ended = [](const CaseEvent& event, const RunProgress&) { print_end_of_case(event); };
+    return observer;
   }
-  RunObserver observer;
   if (is_terminal_) observer.progress = [this](const RunProgress& progress) { show_line(progress); };
   return observer;
 }
@@ -68,6 +69,11 @@ void ProgressReport::show_line(const RunProgress& progress) {
   if (progress.failed > 0) line += fmt::format(", {} cases failed", progress.failed);
   print_error("{} \x1b[K", line);
   is_shown_ = true;
+}
+
+void ProgressReport::print_stopping() const {
+  if (is_shown_) print_error("\n");
+  print_error("tanglebin: stopping after the cases in progress; once more to end at once\n");
 }
 
 void ProgressReport::print_progress(const RunProgress& progress) {

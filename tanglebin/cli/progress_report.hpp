@@ -38,6 +38,7 @@ private:
 
   double rate(const RunProgress& progress) const;
   void show_line(const RunProgress& progress);
+  void print_stopping() const;
   void print_progress(const RunProgress& progress);
   static void print_end_of_case(const CaseEvent& event);
 

@@ -1,10 +1,12 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/exit_status.hpp"
 #include "tanglebin/cli/many_cases.hpp"
@@ -16,24 +18,36 @@
 namespace tanglebin::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct VerifyArguments {
   std::string dataset;
   bool rest = false;
   bool repair = false;
-  int jobs = 1;
+  ManyCases many;
   ProgressStyle progress = ProgressStyle::line;
   bool json = false;
 };
 
 VerifySummary verify(const VerifyArguments& arguments) {
+  const fs::path recipe = fs::path(arguments.dataset) / "recipe.toml";
   ProgressReport progress(arguments.progress);
-  return verify_dataset(arguments.dataset, {.jobs = arguments.jobs, .rest = arguments.rest},
+  return verify_dataset(arguments.dataset,
+                        {.jobs = arguments.many.jobs,
+                         .rest = arguments.rest,
+                         .wanted = chosen(arguments.many, cases(read_recipe(recipe)), recipe.string())},
                         progress.observer());
 }
 
 FillSummary repair(const VerifyArguments& arguments, const VerifySummary& found) {
   ProgressReport progress(arguments.progress);
-  return repair_dataset(arguments.dataset, found, arguments.jobs, progress.observer());
+  return repair_dataset(arguments.dataset, found, arguments.many.jobs, progress.observer());
+}
+
+nlohmann::ordered_json json_of(const std::vector<DatasetFault>& faults) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const auto& [where, what] : faults) json.push_back({{"where", where}, {"what", what}});
+  return json;
 }
 
 nlohmann::ordered_json json_of(const VerifyArguments& arguments, const VerifySummary& summary,
@@ -46,14 +60,13 @@ nlohmann::ordered_json json_of(const VerifyArguments& arguments, const VerifySum
   json["digest"] = summary.digest;
   json["repaired"] = repaired;
   json["stopped"] = summary.was_stopped;
-  json["faults"] = nlohmann::ordered_json::array();
-  for (const auto& [where, what] : summary.faults) {
-    json["faults"].push_back({{"where", where}, {"what", what}});
-  }
+  json["notes"] = json_of(summary.notes);
+  json["faults"] = json_of(summary.faults);
   return json;
 }
 
 void print_text(const VerifyArguments& arguments, const VerifySummary& summary, std::size_t repaired) {
+  for (const auto& [where, what] : summary.notes) print_out("{}: {}\n", where, what);
   for (const auto& [where, what] : summary.faults) print_out("{}: {}\n", where, what);
   print_out("{}: {} of the recipe's {} cases, digest {}; ", arguments.dataset, summary.cases,
             cases(summary.recipe).size(), summary.digest);
@@ -65,6 +78,10 @@ void print_text(const VerifyArguments& arguments, const VerifySummary& summary, 
 
 void verify_and_report(const VerifyArguments& arguments) {
   VerifySummary summary = verify(arguments);
+  if (arguments.repair && summary.is_in_progress) {
+    throw InputError({arguments.dataset, 0, ""},
+                     "a run is in progress; repair the dataset when it has ended");
+  }
   std::size_t repaired = 0;
   if (arguments.repair && !summary.faults.empty() && !summary.was_stopped) {
     const FillSummary repair_run = repair(arguments, summary);
@@ -92,12 +109,13 @@ void add_verify(CLI::App& app) {
   command->add_option("dataset", arguments->dataset, "Directory of a dataset")->required();
   command->add_flag("--rest", arguments->rest, "Also check that every heap is at rest, by simulation");
   command->add_flag("--repair", arguments->repair, "Regenerate missing and broken cases");
-  add_jobs_option(*command, arguments->jobs);
+  add_options(*command, arguments->many);
   add_progress_option(*command, arguments->progress);
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->footer(
       "Example:\n  tanglebin verify dataset --repair\n"
-      "Lists the faults and exits with status 4 if there are any; with --repair, if any remain.");
+      "Lists the faults and exits with status 4 if there are any; with --repair, if any remain.\n"
+      "With --set, --tubes or --cases, checks, misses and repairs only these cases.");
   command->callback([arguments] { verify_and_report(*arguments); });
 }
 

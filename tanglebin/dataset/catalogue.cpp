@@ -1,6 +1,7 @@
 #include "tanglebin/dataset/catalogue.hpp"
 
 #include <fstream>
+#include <string_view>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
@@ -14,6 +15,12 @@ namespace tanglebin {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr std::string_view header_start = "{\"made_with\"";
+
+}  // namespace
+
 std::string to_json(const FailedCase& failed) {
   Json json = id_json(failed.id);
   json["seed"] = seed_text(failed.seed);
@@ -26,11 +33,23 @@ FailedCase failed_case(const std::string& json, const std::string& file, std::si
   return {id_of(value), value.seed("seed"), value.text("reason")};
 }
 
+std::string journal_header(const std::set<Versions>& made_with) {
+  return to_json(made_with);
+}
+
 std::string journal_line(const CaseRecord& record, const TimesRecord& times) {
   return to_json(record) + journal_separator + to_json(times);
 }
 
-/// Reads lines by their places.
+bool lists_cases(const fs::path& journal) {
+  bool is_there = false;
+  for_each_whole_line(journal, [&](const std::string& line, std::size_t) {
+    is_there = is_there || !line.starts_with(header_start);
+  });
+  return is_there;
+}
+
+/// Reads lines by their places. Keeps many files open, but not more than a process may.
 class Catalogue::Reader {
 public:
   explicit Reader(const std::vector<fs::path>& files) {
@@ -41,7 +60,7 @@ public:
   std::string line(const Place& place) {
     std::string line(place.size, '\0');
     auto& [file, in] = files_[place.file];
-    if (!in) in = open_if_there(file);
+    if (!in) in = open(file);
     if (!in) throw InputError({file.string(), place.line, ""}, "has been removed");
     in->seekg(static_cast<std::streamoff>(place.offset));
     in->read(line.data(), static_cast<std::streamsize>(line.size()));
@@ -55,7 +74,19 @@ private:
     fs::path path;
     std::optional<std::ifstream> in;
   };
+
+  std::optional<std::ifstream> open(const fs::path& file) {
+    constexpr int most_open = 500;
+    if (open_ == most_open) {
+      for (File& other : files_) other.in.reset();
+      open_ = 0;
+    }
+    ++open_;
+    return open_if_there(file);
+  }
+
   std::vector<File> files_;
+  int open_ = 0;
 };
 
 template <typename Take>
@@ -72,10 +103,13 @@ void Catalogue::read_lines(const fs::path& file, Damage damage, const Take& take
 }
 
 Catalogue::Catalogue(const fs::path& directory, Damage damage)
+    : Catalogue(directory, damage, DirectoryReadLock(directory)) {}
+
+Catalogue::Catalogue(const fs::path& directory, Damage damage, const DirectoryReadLock& /*held meanwhile*/)
     : Catalogue(directory, damage, journals_in(directory)) {}
 
 Catalogue::Catalogue(const fs::path& directory, Damage damage, const std::vector<fs::path>& journals)
-    : directory_(directory) {
+    : directory_(directory), damage_(damage) {
   // To pass over damaged lines, read them all now; otherwise a line is read when it is needed.
   const bool reads_all = damage == Damage::is_passed_over;
   const std::string manifest = (directory / manifest_name).string();
@@ -100,7 +134,12 @@ Catalogue::Catalogue(const fs::path& directory, Damage damage, const std::vector
 }
 
 void Catalogue::read_journal(const fs::path& file) {
+  std::set<Versions> versions;
   read_lines(file, Damage::is_passed_over, [&](const std::string& line, const Place& place) {
+    if (line.starts_with(header_start)) {
+      versions = tanglebin::made_with(line, file.string(), place.line);
+      return;
+    }
     const std::size_t middle = line.find(journal_separator);
     if (middle == std::string::npos) {
       add(failed_case(line, file.string(), place.line));
@@ -113,6 +152,7 @@ void Catalogue::read_journal(const fs::path& file) {
     times.size -= middle + 1;
     times_record(line.substr(middle + 1), file.string(), place.line);
     places_[case_record(line.substr(0, middle), file.string(), place.line).id] = {record, times};
+    made_with_.insert(versions.begin(), versions.end());
   });
 }
 
@@ -123,27 +163,59 @@ std::vector<CaseId> Catalogue::cases() const {
   return ids;
 }
 
+const Catalogue::Places& Catalogue::places_of(const CaseId& id) const {
+  const auto found = places_.find(id);
+  if (found == places_.end()) throw InputError({directory_.string(), 0, name_of(id)}, "not listed");
+  return found->second;
+}
+
+std::string Catalogue::line_at(const CaseId& id, const Place& place) const {
+  std::string line = Reader(files_).line(place);
+  const std::string file = files_[place.file].string();
+  if (const CaseId found = id_of_line(line, file, place.line); found != id) {
+    throw InputError({file, place.line, ""}, name_of(found), name_of(id));
+  }
+  return line;
+}
+
+std::optional<std::string> Catalogue::times_line(const CaseId& id) const {
+  const Place& place = places_of(id).times;
+  if (place.size == 0) return std::nullopt;
+  return line_at(id, place);
+}
+
+template <typename Read>
+auto Catalogue::up_to_date(const Read& read) const {
+  try {
+    return read(later_ ? *later_ : *this);
+  } catch (const InputError&) {
+    later_ = std::make_shared<const Catalogue>(directory_, damage_);
+    return read(*later_);
+  }
+}
+
 CaseRecord Catalogue::record(const CaseId& id) const {
-  const Place& place = places_.at(id).record;
-  CaseRecord record = case_record(Reader(files_).line(place), files_[place.file].string(), place.line);
-  // A run that goes on meanwhile may have replaced the file.
-  if (record.id != id)
-    throw InputError({files_[place.file].string(), place.line, ""}, name_of(record.id), name_of(id));
-  return record;
+  return up_to_date([&](const Catalogue& catalogue) {
+    const Place& place = catalogue.places_of(id).record;
+    return case_record(catalogue.line_at(id, place), catalogue.files_[place.file].string(), place.line);
+  });
 }
 
 std::optional<TimesRecord> Catalogue::times(const CaseId& id) const {
-  const Place& place = places_.at(id).times;
-  if (place.size == 0) return std::nullopt;
-  return times_record(Reader(files_).line(place), files_[place.file].string(), place.line);
+  return up_to_date([&](const Catalogue& catalogue) -> std::optional<TimesRecord> {
+    const std::optional<std::string> line = catalogue.times_line(id);
+    if (!line) return std::nullopt;
+    const Place& place = catalogue.places_of(id).times;
+    return times_record(*line, catalogue.files_[place.file].string(), place.line);
+  });
 }
 
 void Catalogue::for_each_times_line(const std::vector<CaseId>& order,
                                     const std::function<void(const std::string&)>& take) const {
-  Reader reader(files_);
   for (const CaseId& id : order) {
-    const auto found = places_.find(id);
-    if (found != places_.end() && found->second.times.size > 0) take(reader.line(found->second.times));
+    if (!has(id)) continue;
+    const auto line = up_to_date([&](const Catalogue& catalogue) { return catalogue.times_line(id); });
+    if (line) take(*line);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,6 +14,7 @@
 #include "tanglebin/dataset/dataset_summary.hpp"
 #include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/recipe/case_id.hpp"
+#include "tanglebin/runs/file_lock.hpp"
 
 namespace tanglebin {
 
@@ -30,8 +32,14 @@ FailedCase failed_case(const std::string& json, const std::string& file, std::si
 /// Between a case's record and its times in a line of the journal; JSON escapes a tab inside.
 inline constexpr char journal_separator = '\t';
 
+/// The journal's first line: what the run's cases are made with.
+std::string journal_header(const std::set<Versions>& made_with);
+
 /// The journal's line for a finished case.
 std::string journal_line(const CaseRecord& record, const TimesRecord& times);
+
+/// Whether the journal has lines of cases, finished or failed.
+bool lists_cases(const std::filesystem::path& journal);
 
 /// The cases that are listed in the manifest, times, failures and journals of a dataset's directory. It keeps
 /// only the places of their lines in memory, so it is small even for a large dataset.
@@ -40,9 +48,10 @@ public:
   /// What to do with a damaged line of manifest, times or failures.
   enum class Damage { is_error, is_passed_over };
 
-  /// Reads them, with all journals or only these. Skips a last line without an end and damaged lines of
-  /// journals. Throws InputError for any other line that does not begin with a case, unless damage is passed
-  /// over, and for a file that cannot be read.
+  /// Reads them, with all journals or only these. With all, no run changes them meanwhile
+  /// (DirectoryReadLock); the caller sees to that if it names the journals. Skips a last line without an end
+  /// and damaged lines of journals. Throws InputError for any other line that does not begin with a case,
+  /// unless damage is passed over, and for a file that cannot be read.
   explicit Catalogue(const std::filesystem::path& directory, Damage damage = Damage::is_error);
   Catalogue(const std::filesystem::path& directory, Damage damage,
             const std::vector<std::filesystem::path>& journals);
@@ -56,8 +65,12 @@ public:
   /// The finished cases.
   std::vector<CaseId> cases() const;
 
-  /// The record of a finished case, and its times if there are any. Throws InputError for a line that is
-  /// damaged or has changed. Each call opens the file, so forked processes may call it.
+  /// What the cases in the journals were made with.
+  const std::set<Versions>& made_with() const { return made_with_; }
+
+  /// The record of a finished case, and its times if there are any. A line that a run has moved meanwhile is
+  /// looked up again. Throws InputError for a damaged line. Each call opens the file, so forked processes may
+  /// call it.
   CaseRecord record(const CaseId& id) const;
   std::optional<TimesRecord> times(const CaseId& id) const;
 
@@ -92,14 +105,27 @@ private:
   };
   class Reader;
 
+  Catalogue(const std::filesystem::path& directory, Damage damage, const DirectoryReadLock& lock);
   void read_journal(const std::filesystem::path& file);
   template <typename Take>
   void read_lines(const std::filesystem::path& file, Damage damage, const Take& take);
 
+  // The finished case's places. Throws InputError if it is not listed.
+  const Places& places_of(const CaseId& id) const;
+  // The line at a case's place. Throws InputError if it is not of this case.
+  std::string line_at(const CaseId& id, const Place& place) const;
+  std::optional<std::string> times_line(const CaseId& id) const;
+  // What `read` returns of this catalogue, or of a later one if a run has moved the lines meanwhile.
+  template <typename Read>
+  auto up_to_date(const Read& read) const;
+
   std::filesystem::path directory_;
+  Damage damage_;
   std::vector<std::filesystem::path> files_;
   std::map<CaseId, Places> places_;
   std::map<CaseId, FailedCase> failed_;
+  std::set<Versions> made_with_;
+  mutable std::shared_ptr<const Catalogue> later_;
 };
 
 }  // namespace tanglebin

@@ -37,6 +37,10 @@ private:
   std::size_t files_ = 0;
 };
 
+/// A line of JSON with nothing but `made_with`, as in dataset.json, and the inverse, which throws InputError.
+std::string to_json(const std::set<Versions>& made_with);
+std::set<Versions> made_with(const std::string& json, const std::string& file, std::size_t line);
+
 /// The text of dataset.json.
 std::string to_json(const DatasetSummary& summary);
 

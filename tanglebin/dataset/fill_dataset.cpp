@@ -1,5 +1,7 @@
 #include "tanglebin/dataset/fill_dataset.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <sstream>
 #include <utility>
@@ -24,18 +26,38 @@ std::string text_of(const Recipe& recipe) {
   return out.str();
 }
 
-// Expects that the directory has no other recipe.
+// Other shards may begin at the same time: of theirs, journals may be here before the recipe, and new ones
+// come. So the journals are listed after all else, and the recipe is looked for at the end.
+void expect_dataset_or_empty(const fs::path& directory) {
+  std::set<fs::path> foreign;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+    const bool is_hidden = entry.path().filename().string().starts_with('.');
+    if (!is_hidden) foreign.insert(entry.path());
+  }
+  for (const fs::path& journal : journals_in(directory)) foreign.erase(journal);
+  if (foreign.empty() || fs::exists(directory / recipe_name)) return;
+  throw InputError({directory.string(), 0, ""},
+                   foreign.contains(directory / "experiment.json") ? "the results of an experiment"
+                                                                   : foreign.begin()->filename().string(),
+                   "a dataset or an empty directory");
+}
+
+// Expects a directory that is missing, empty or has a dataset of this recipe.
 void expect_free(const fs::path& directory, const Recipe& recipe) {
+  if (!fs::exists(directory)) return;
+  expect_dataset_or_empty(directory);
   if (fs::exists(directory / recipe_name)) expect_same_recipe(directory, recipe);
 }
 
 // Writes the directory's recipe, or expects it to be the same.
 void claim(const fs::path& directory, const Recipe& recipe, const fs::path& staging) {
-  expect_free(directory, recipe);
   const fs::path file = directory / recipe_name;
-  if (fs::exists(file)) return;
-  write_staged(file, text_of(recipe), staging);
-  sync_directory(directory);
+  if (!fs::exists(file)) {
+    const DirectoryLock lock(directory);
+    if (!fs::exists(file)) write_staged(file, text_of(recipe), staging);
+    sync_directory(directory);
+  }
+  expect_same_recipe(directory, recipe);
 }
 
 /// One run of fill_dataset().
@@ -46,7 +68,7 @@ public:
         make_(make),
         observer_(observer),
         order_(cases(request.recipe)),
-        journal_(request.directory, request.name) {}
+        journal_(std::in_place, request.directory, name()) {}
 
   FillSummary run() {
     begin();
@@ -56,32 +78,59 @@ public:
       end_after_an_error();
       throw;
     }
-    if (summary_.progress.made + summary_.progress.failed > 0) summary_.dataset = fold_at_the_end();
+    summary_.dataset = end();
     return std::move(summary_);
   }
 
 private:
+  std::string name() const { return request_.shard ? name_of(*request_.shard) : ""; }
+
   void begin() {
-    const DirectoryLock lock(request_.directory);
-    claim(request_.directory, request_.recipe, journal_.staging());
-    const std::vector<Journal> abandoned = abandoned_journals(request_.directory);
-    Catalogue before(request_.directory, damage());
-    for (const CaseId& id : to_replace()) before.drop(id);
+    claim(request_.directory, request_.recipe, journal_->staging());
+    if (request_.repair) drop_broken_cases();
+    const Catalogue before = cases_before();
     for (const CaseId& id : request_.wanted) {
       if (!before.has(id)) missing_.push_back(id);
     }
     summary_.progress.wanted = request_.wanted.size();
     summary_.progress.found = request_.wanted.size() - missing_.size();
-    const std::optional<DatasetSummary> known = known_summary();
-    const bool is_folded = known && std::ranges::includes(known->made_with, made_with()) &&
-                           journal_.is_empty() && abandoned.empty() && !request_.repair &&
-                           request_.failed.empty();
-    summary_.dataset = is_folded ? *known : fold(abandoned, to_replace());
+    std::vector<std::string> lines{journal_header(request_.made_with)};
+    for (const FailedCase& failed : request_.failed) {
+      const bool is_known = before.has(failed.id) || before.failed().contains(failed.id);
+      if (!is_known) lines.push_back(to_json(failed));
+    }
+    journal_->append(lines);
   }
 
-  // The versions that this run adds to the dataset.
-  std::set<Versions> made_with() const {
-    return missing_.empty() ? std::set<Versions>{} : request_.made_with;
+  // The other shards make other cases, so their journals need not be read: each would read all of them.
+  Catalogue cases_before() const {
+    const DirectoryReadLock lock(request_.directory);
+    std::vector<fs::path> journals = journals_in(request_.directory);
+    std::erase_if(journals, [&](const fs::path& journal) {
+      return journal != journal_->file() && is_of_the_shards(journal);
+    });
+    return {request_.directory, damage(), journals};
+  }
+
+  // Of this run's shard, or of another of as many.
+  bool is_of_the_shards(const fs::path& journal) const {
+    return request_.shard && journal.stem().string().ends_with(fmt::format("-of-{}", request_.shard->count));
+  }
+
+  // At once, so that they are not taken for finished if the run is interrupted.
+  void drop_broken_cases() {
+    const DirectoryLock lock(request_.directory);
+    std::vector<fs::path> others = journals_in(request_.directory);
+    std::erase(others, journal_->file());
+    const std::vector<fs::path> in_use = journals_in_use(others);
+    if (!in_use.empty()) {
+      throw InputError({request_.directory.string(), 0, ""},
+                       fmt::format("a run in progress ({})", in_use.front().filename().string()),
+                       "none while a dataset is repaired");
+    }
+    write_manifest(journals_in(request_.directory), *request_.repair);
+    for (const fs::path& journal : others) remove_journal(journal);
+    journal_->clear();
   }
 
   // A repair writes a damaged one again: everything but the versions follows from the manifest.
@@ -94,24 +143,24 @@ private:
     }
   }
 
-  std::vector<CaseId> to_replace() const { return request_.repair.value_or(std::vector<CaseId>{}); }
-
   Catalogue::Damage damage() const {
     return request_.repair ? Catalogue::Damage::is_passed_over : Catalogue::Damage::is_error;
   }
 
   void make_missing() {
-    const CaseWriter writer(request_.directory, journal_.staging());
+    const CaseWriter writer(request_.directory, journal_->staging());
     const WorkersObserver workers{
         .done = [this](const std::vector<TaskResult>& results) { record(results); },
         .failed = [this](const TaskFailure& failure) { record(failure); },
         .tick = [this] { observer_.progress(summary_.progress); },
+        .stopping = observer_.stopping,
     };
     const Task make_case = [&](std::size_t task) {
       const auto [record, times] = make_(missing_[task], writer);
       return journal_line(record, times);
     };
-    summary_.was_interrupted = !run_in_workers(request_.jobs, missing_.size(), make_case, workers);
+    summary_.was_interrupted =
+        !run_in_workers(request_.jobs, missing_.size(), make_case, workers, request_.case_limit);
   }
 
   // First waits for the files' names, then writes the journal's lines.
@@ -129,7 +178,7 @@ private:
       events.push_back({made.id, result.seconds, made.rejections.size(), {}});
     }
     for (const fs::path& folder : folders) sync_directory(request_.directory / folder);
-    journal_.append(lines);
+    journal_->append(lines);
     for (const CaseEvent& event : events) {
       ++summary_.progress.made;
       summary_.progress.rejected += event.rejected;
@@ -153,7 +202,7 @@ private:
     const CaseId& id = missing_[failure.task];
     const std::uint64_t seed = attempt_seed(request_.recipe.seed, id.set, id.tubes, id.number, 1);
     summary_.failed.push_back({id, seed, failure.reason});
-    journal_.append({to_json(summary_.failed.back())});
+    journal_->append({to_json(summary_.failed.back())});
     ++summary_.progress.failed;
     observer_.ended({id, 0, 0, failure.reason}, summary_.progress);
   }
@@ -161,40 +210,63 @@ private:
   // The error that ended the run is the one to report; the journal keeps what cannot be written now.
   void end_after_an_error() {
     try {
-      fold_at_the_end();
+      end();
     } catch (const std::exception&) {
       return;
     }
   }
 
-  DatasetSummary fold_at_the_end() {
+  // The last run to end moves the lines of all journals to the manifest.
+  std::optional<DatasetSummary> end() {
+    const fs::path own = journal_->file();
+    journal_.reset();
     const DirectoryLock lock(request_.directory);
-    return fold(abandoned_journals(request_.directory), {});
+    std::vector<fs::path> journals = journals_in(request_.directory);
+    // Shards mostly end in order, so the next one is the most likely to be in progress.
+    std::rotate(journals.begin(), std::ranges::upper_bound(journals, own), journals.end());
+    if (are_shards_to_come(journals) || std::ranges::any_of(journals, is_locked)) return std::nullopt;
+    return seal(journals);
   }
 
-  // Moves the journals of this run and of interrupted runs to the manifest. The caller has the directory's
-  // lock.
-  DatasetSummary fold(const std::vector<Journal>& abandoned, const std::vector<CaseId>& to_drop) {
-    std::vector<fs::path> journals{journal_.file()};
-    for (const Journal& journal : abandoned) journals.push_back(journal.file());
+  // If shards run one after the other, the manifest is not to be written after each of them.
+  bool are_shards_to_come(const std::vector<fs::path>& journals) const {
+    if (!request_.shard || fs::exists(request_.directory / "dataset.json")) return false;
+    const auto begun =
+        std::ranges::count_if(journals, [this](const auto& path) { return is_of_the_shards(path); });
+    return begun < request_.shard->count;
+  }
+
+  // The caller has the directory's lock, and no run has one of the journals.
+  DatasetSummary seal(const std::vector<fs::path>& journals) const {
+    const std::optional<DatasetSummary> known = known_summary();
+    const bool is_sealed = known && std::ranges::none_of(journals, lists_cases);
+    DatasetSummary dataset = is_sealed ? *known : write_manifest(journals, {});
+    fs::remove_all(sealing());
+    for (const fs::path& journal : journals) remove_journal(journal);
+    return dataset;
+  }
+
+  // Writes the files that list the cases: all of the journals and the manifest but those to drop.
+  DatasetSummary write_manifest(const std::vector<fs::path>& journals,
+                                const std::vector<CaseId>& to_drop) const {
     Catalogue all(request_.directory, damage(), journals);
     for (const CaseId& id : to_drop) all.drop(id);
-    for (const FailedCase& failed : request_.failed) all.add(failed);
-    std::set<Versions> versions = made_with();
+    std::set<Versions> versions = all.made_with();
     if (const auto known = known_summary()) {
       versions.insert(known->made_with.begin(), known->made_with.end());
     }
-    DatasetSummary dataset = all.write(order_, versions, journal_.staging());
-    journal_.clear();
-    for (const Journal& journal : abandoned) journal.clear();
-    return dataset;
+    make_directories(sealing());
+    return all.write(order_, versions, sealing());
   }
+
+  // The directory for the manifest while it is unfinished.
+  fs::path sealing() const { return request_.directory / ".sealing.unfinished"; }
 
   const FillRequest& request_;
   const MakeCase& make_;
   const RunObserver& observer_;
   std::vector<CaseId> order_;
-  Journal journal_;
+  std::optional<Journal> journal_;  ///< until the run ends
   std::vector<CaseId> missing_;
   std::set<fs::path> known_folders_;  ///< of which the names are on the disk
   FillSummary summary_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -14,6 +15,8 @@
 #include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/dataset/run_observer.hpp"
 #include "tanglebin/recipe/recipe.hpp"
+#include "tanglebin/runs/shard.hpp"
+#include "tanglebin/runs/workers.hpp"
 
 namespace tanglebin {
 
@@ -44,16 +47,21 @@ struct MadeCase {
 /// Makes a case in a worker process. May throw as a Task does (workers.hpp).
 using MakeCase = std::function<MadeCase(const CaseId& id, const CaseWriter& writer)>;
 
+/// The wall-clock time that a case may take; beyond it, it fails and is for a later run to try again.
+inline constexpr std::chrono::seconds default_case_limit{600};
+
 /// What a run is to put into a dataset's directory.
 struct FillRequest {
   Recipe recipe;
   std::vector<CaseId> wanted;
   std::filesystem::path directory;
-  std::string name{};                ///< of the run: empty, or that of its shard
-  int jobs = 1;                      ///< worker processes
+  std::optional<Shard> shard{};  ///< if several runs fill the directory: which of them this is
+  int jobs = 1;                  ///< worker processes
+  TimeLimit case_limit = default_case_limit;
   std::set<Versions> made_with{};    ///< for dataset.json, if any cases are made
   std::vector<FailedCase> failed{};  ///< cases known to have failed elsewhere
-  /// If set: finished cases to make again; damaged lines of the dataset are dropped.
+  /// If set: finished cases to make again; damaged lines of the dataset are dropped. No other run may be in
+  /// progress.
   std::optional<std::vector<CaseId>> repair{};
 };
 
@@ -61,8 +69,9 @@ struct FillRequest {
 struct FillSummary {
   RunProgress progress;
   std::vector<FailedCase> failed;  ///< of the cases asked for
-  DatasetSummary dataset;          ///< of the whole directory
-  bool was_interrupted = false;    ///< by SIGINT or SIGTERM, even if no case was left to make
+  /// Of the whole directory; nullopt if other runs are to complete it.
+  std::optional<DatasetSummary> dataset;
+  bool was_interrupted = false;  ///< by SIGINT or SIGTERM, even if no case was left to make
 
   bool is_complete() const { return progress.found + progress.made == progress.wanted; }
   bool was_stopped() const { return progress.found + progress.made + progress.failed < progress.wanted; }
@@ -71,9 +80,11 @@ struct FillSummary {
 /// Makes the wanted cases that are missing in the directory, in worker processes, and writes recipe.toml,
 /// manifest.jsonl, times.jsonl, failed.jsonl and dataset.json (docs/formats.md). Before the observer hears of
 /// a case, its files and its line in the run's journal are on the disk: whatever ends the run, the next one
-/// goes on from there. Runs of different names may fill a directory at the same time. Returns early on SIGINT
-/// and SIGTERM. Throws InputError if the directory belongs to another recipe or to a running run of the same
-/// name, if a file cannot be read or written, and if making a case throws it.
+/// goes on from there. Shards may fill a directory at the same time. The last run to end there moves the
+/// lines of all journals to the manifest; a shard leaves that to the others until all of them have been
+/// there. Returns early on SIGINT and SIGTERM. Throws InputError if the directory has files but is no
+/// dataset, belongs to another recipe or to a run of the same shard, if a file cannot be read or written, and
+/// if making a case throws it.
 FillSummary fill_dataset(const FillRequest& request, const MakeCase& make, const RunObserver& observer);
 
 }  // namespace tanglebin

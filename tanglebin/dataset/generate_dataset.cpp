@@ -46,7 +46,7 @@ MadeCase make_case(const Recipe& dataset_recipe, const CaseId& id, const CaseWri
   const auto [recipe, scene] = [&] {
     try {
       Recipe resolved = resolve(dataset_recipe, drawn);
-      Scene simulated = simulate(resolved, id);
+      Scene simulated = simulate(resolved, id, stop_if_asked);
       return std::pair{std::move(resolved), std::move(simulated)};
     } catch (const InputError& error) {  // no valid recipe or scene; the next case may have one
       throw TaskImpossible(error.problem());
@@ -83,9 +83,9 @@ FillSummary generate_cases(FillRequest request, const RunObserver& observer) {
 
 FillSummary generate_dataset(const Recipe& recipe, const std::vector<CaseId>& wanted,
                              const std::filesystem::path& directory, int jobs, const RunObserver& observer,
-                             const std::string& name) {
+                             const std::optional<Shard>& shard) {
   return generate_cases(
-      {.recipe = recipe, .wanted = wanted, .directory = directory, .name = name, .jobs = jobs}, observer);
+      {.recipe = recipe, .wanted = wanted, .directory = directory, .shard = shard, .jobs = jobs}, observer);
 }
 
 }  // namespace tanglebin

@@ -82,6 +82,7 @@ FillSummary merge_datasets(const std::vector<fs::path>& parts, const fs::path& d
                        [&](const CaseId& id) { return source_of.contains(id); });
   for (const Part& part : opened) {
     for (const auto& [id, failed] : part.catalogue.failed()) request.failed.push_back(failed);
+    request.made_with.insert(part.catalogue.made_with().begin(), part.catalogue.made_with().end());
     if (const auto summary = read_dataset_summary(part.directory)) {
       request.made_with.insert(summary->made_with.begin(), summary->made_with.end());
     }

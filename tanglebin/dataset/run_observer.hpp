@@ -29,6 +29,7 @@ struct CaseEvent {
 struct RunObserver {
   std::function<void(const RunProgress&)> progress = [](const auto&) {};  ///< a few times a second
   std::function<void(const CaseEvent&, const RunProgress&)> ended = [](const auto&, const auto&) {};
+  std::function<void()> stopping = [] {};  ///< after the first SIGINT or SIGTERM
 };
 
 }  // namespace tanglebin

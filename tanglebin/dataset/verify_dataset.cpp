@@ -1,6 +1,7 @@
 #include "tanglebin/dataset/verify_dataset.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/case_files.hpp"
 #include "tanglebin/dataset/catalogue.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/fill_dataset.hpp"
@@ -23,6 +25,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// "A10/3-20": neighbours in this list with consecutive numbers.
+std::vector<std::string> ranges_of(const std::vector<CaseId>& ids) {
+  std::vector<std::string> ranges;
+  for (std::size_t first = 0, last = 0; first < ids.size(); first = ++last) {
+    const auto& [set, tubes, number] = ids[first];
+    while (last + 1 < ids.size() && ids[last + 1] == CaseId{set, tubes, ids[last].number + 1}) ++last;
+    ranges.push_back(name_of(ids[first]));
+    if (last > first) ranges.back() += fmt::format("-{}", ids[last].number);
+  }
+  return ranges;
+}
+
+// Not more of them than one can read.
+std::string text_of_ranges(std::vector<std::string> ranges) {
+  constexpr std::size_t most = 20;
+  if (ranges.size() > most) {
+    const std::size_t more = ranges.size() - most;
+    ranges.resize(most);
+    ranges.back() += fmt::format(" and {} more ranges", more);
+  }
+  return fmt::format("{}", fmt::join(ranges, ", "));
+}
+
 /// The verification of one dataset.
 class Verification {
 public:
@@ -31,17 +56,26 @@ public:
       : directory_(directory),
         settings_(settings),
         observer_(observer),
-        catalogue_(directory, Catalogue::Damage::is_passed_over) {
+        lock_(directory),
+        journals_(journals_in(directory)),
+        in_use_(journals_in_use(journals_)),
+        catalogue_(directory, Catalogue::Damage::is_passed_over, journals_) {
     summary_.recipe = std::move(recipe);
-    for (const CaseId& id : cases(summary_.recipe)) state_.try_emplace(id);
+    summary_.is_in_progress = !in_use_.empty();
+    const std::vector<CaseId> all = cases(summary_.recipe);
+    for (const CaseId& id : all) state_.try_emplace(id);
+    for (const CaseId& id : settings.wanted.value_or(all)) state_.at(id).is_wanted = true;
+    read_manifest();
+    lock_.reset();
   }
 
   VerifySummary run() {
-    read_manifest();
+    read_journals();
     read_failures();
     check_summary();
-    find_journals();
+    report_journals();
     find_unlisted_files();
+    find_strays();
     check_cases();
     list_broken_cases();
     return std::move(summary_);
@@ -49,6 +83,7 @@ public:
 
 private:
   struct State {
+    bool is_wanted = false;
     bool is_there = false;
     bool is_broken = false;
   };
@@ -60,15 +95,24 @@ private:
     state_[id].is_broken = true;
     add(name_of(id), std::move(what));
   }
+  void note(std::string where, std::string what) {
+    summary_.notes.push_back({std::move(where), std::move(what)});
+  }
+
+  // Without journals, the files that list the cases are complete.
+  bool is_sealed() const { return journals_.empty(); }
 
   void read_manifest() {
     const fs::path file = directory_ / manifest_name;
-    if (!fs::exists(file)) add(manifest_name, "missing");
+    if (is_sealed() && !fs::exists(file)) add(manifest_name, "missing");
+    Digest digest;
     std::uintmax_t whole = 0;
     for_each_whole_line(file, [&](const std::string& line, std::size_t number) {
       const std::string where = fmt::format("{}:{}", manifest_name, number);
       try {
-        read_record(case_record(line, where, 0), where);
+        const CaseRecord record = case_record(line, where, 0);
+        digest.add(record);
+        read_record(record, where);
       } catch (const InputError& error) {
         add(where, complaint_of(error));
       }
@@ -78,12 +122,23 @@ private:
     if (const std::uintmax_t size = fs::file_size(file, none); !none && size > whole) {
       add(manifest_name, fmt::format("{} bytes after the last line", size - whole));
     }
-    if (!fs::exists(directory_ / times_name)) add(times_name, "missing");
-    summary_.digest = digest_.hex();
+    if (is_sealed() && !fs::exists(directory_ / times_name)) add(times_name, "missing");
+    summary_.digest = digest.hex();
+  }
+
+  void read_journals() {
+    if (is_sealed()) return;
+    Digest digest;  // of the manifest to come
+    for (const CaseId& id : cases(summary_.recipe)) {
+      if (!catalogue_.has(id)) continue;
+      const CaseRecord record = catalogue_.record(id);
+      digest.add(record);
+      if (!state_[id].is_there) read_record(record, "a journal");
+    }
+    summary_.digest = digest.hex();
   }
 
   void read_record(const CaseRecord& record, const std::string& where) {
-    digest_.add(record);
     ++summary_.cases;
     const auto found = state_.find(record.id);
     if (found == state_.end()) {
@@ -104,13 +159,19 @@ private:
 
   void read_failures() {
     for (const auto& [id, failed] : catalogue_.failed()) {
-      if (const auto found = state_.find(id); found != state_.end() && !found->second.is_there) {
-        add(id, fmt::format("failed: {} (seed {:016x})", failed.reason, failed.seed));
+      const auto found = state_.find(id);
+      if (found == state_.end() || found->second.is_there || !found->second.is_wanted) continue;
+      std::string what = fmt::format("failed: {} (seed {:016x})", failed.reason, failed.seed);
+      if (summary_.is_in_progress) {
+        note(name_of(id), std::move(what));
+      } else {
+        add(id, std::move(what));
       }
     }
   }
 
   void check_summary() {
+    if (!is_sealed()) return;
     constexpr const char* name = "dataset.json";
     try {
       const std::optional<DatasetSummary> said = read_dataset_summary(directory_);
@@ -128,15 +189,22 @@ private:
     }
   }
 
-  void find_journals() {
-    for (const fs::path& journal : journals_in(directory_)) {
+  // Beside a run in progress, journals of runs that have ended wait for its end.
+  void report_journals() {
+    for (const fs::path& journal : in_use_) {
+      note(journal.filename().string(), "a run is in progress; only what was finished before is checked");
+    }
+    if (summary_.is_in_progress) return;
+    for (const fs::path& journal : journals_) {
       add(journal.filename().string(),
-          "a run is in progress or was interrupted; the same command resumes it");
+          "its run has ended, but its cases are not in the manifest yet; the same command resumes it, and "
+          "--repair completes the manifest");
     }
   }
 
-  // Only in the folders of cases; anything else in the directory is the user's.
+  // In the folders of cases.
   void find_unlisted_files() {
+    if (summary_.is_in_progress) expect_files_to_come();
     std::set<std::string> folders;
     for (const auto& [id, state] : state_) folders.insert(folder_name(id.set, id.tubes));
     for (const std::string& folder : folders) {
@@ -148,10 +216,33 @@ private:
     }
   }
 
+  void expect_files_to_come() {
+    for (const auto& [id, state] : state_) {
+      if (!state.is_there) listed_.merge(paths_to_come(id));
+    }
+  }
+
+  std::unordered_set<std::string> paths_to_come(const CaseId& id) const {
+    const std::vector<std::string> paths = paths_of(summary_.recipe, id);
+    return {paths.begin(), paths.end()};
+  }
+
+  // Beside the folders of cases, where the user may keep files, too.
+  void find_strays() {
+    const std::set<std::string> own{"recipe.toml", "dataset.json", manifest_name, times_name, failed_name};
+    const std::set<std::string> kinds{".toml", ".json", ".jsonl"};
+    for (const fs::directory_entry& entry : fs::directory_iterator(directory_)) {
+      const std::string name = entry.path().filename().string();
+      const bool looks_own = entry.is_regular_file() && kinds.contains(entry.path().extension().string());
+      const bool is_journal = std::ranges::find(journals_, entry.path()) != journals_.end();
+      if (looks_own && !own.contains(name) && !is_journal) note(name, "is none of the dataset's files");
+    }
+  }
+
   void check_cases() {
     std::vector<CaseId> there;
     for (const auto& [id, state] : state_) {
-      if (state.is_there) there.push_back(id);
+      if (state.is_there && state.is_wanted) there.push_back(id);
     }
     RunProgress progress{.wanted = there.size()};
     const auto check = [&](std::size_t task) {
@@ -173,9 +264,11 @@ private:
       ++progress.failed;
       observer_.ended({there[failure.task], 0, 0, failure.reason}, progress);
     };
-    const bool all =
-        run_in_workers(settings_.jobs, there.size(), check,
-                       {.done = take, .failed = give_up, .tick = [&] { observer_.progress(progress); }});
+    const bool all = run_in_workers(settings_.jobs, there.size(), check,
+                                    {.done = take,
+                                     .failed = give_up,
+                                     .tick = [&] { observer_.progress(progress); },
+                                     .stopping = observer_.stopping});
     summary_.was_stopped = !all;
   }
 
@@ -197,22 +290,33 @@ private:
   }
 
   void list_broken_cases() {
+    std::vector<CaseId> missing;
+    std::size_t wanted = 0;
     for (const CaseId& id : cases(summary_.recipe)) {
       const State& state = state_.at(id);
-      if (!state.is_there && !state.is_broken) add(name_of(id), "missing");
-      if (!state.is_there || state.is_broken) summary_.broken.push_back(id);
+      if (!state.is_wanted) continue;
+      ++wanted;
+      const bool is_missing = !state.is_there && !summary_.is_in_progress;
+      if (is_missing && !state.is_broken) missing.push_back(id);
+      if (is_missing || state.is_broken) summary_.broken.push_back(id);
     }
     std::ranges::stable_sort(summary_.faults, {}, &DatasetFault::where);
+    std::ranges::stable_sort(summary_.notes, {}, &DatasetFault::where);
+    if (missing.empty()) return;
+    add("missing",
+        fmt::format("{} of {} cases: {}", missing.size(), wanted, text_of_ranges(ranges_of(missing))));
   }
 
   const fs::path& directory_;
   const VerifySettings& settings_;
   const RunObserver& observer_;
+  std::optional<DirectoryReadLock> lock_;  ///< until all that lists cases is read
+  const std::vector<fs::path> journals_;
+  const std::vector<fs::path> in_use_;  ///< of them, those of runs in progress
   const Catalogue catalogue_;
   std::map<CaseId, State> state_;           ///< of the recipe's cases
   std::map<std::string, CaseId> scenes_;    ///< by the checksum of their configurations
   std::unordered_set<std::string> listed_;  ///< paths in the manifest
-  Digest digest_;
   VerifySummary summary_;
 };
 

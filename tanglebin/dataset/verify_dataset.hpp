@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,17 +19,20 @@ struct DatasetFault {
 };
 
 struct VerifySettings {
-  int jobs = 1;       ///< worker processes
-  bool rest = false;  ///< also test by simulation that every heap is at rest
+  int jobs = 1;                                 ///< worker processes
+  bool rest = false;                            ///< also test by simulation that every heap is at rest
+  std::optional<std::vector<CaseId>> wanted{};  ///< the cases to check; all if not set
 };
 
 /// The result of a verification.
 struct VerifySummary {
   Recipe recipe;
-  std::size_t cases = 0;             ///< in the manifest
-  std::string digest;                ///< of the manifest
+  std::size_t cases = 0;             ///< finished
+  std::string digest;                ///< of the finished cases
   std::vector<DatasetFault> faults;  ///< empty for an intact dataset
-  std::vector<CaseId> broken;        ///< cases of the recipe that are missing or faulty
+  std::vector<DatasetFault> notes;   ///< what is no fault: runs in progress, files that are not the dataset's
+  std::vector<CaseId> broken;        ///< wanted cases that are missing or faulty
+  bool is_in_progress = false;       ///< runs are at work in it
   bool was_stopped = false;          ///< by SIGINT or SIGTERM, perhaps before all cases were checked
 };
 
@@ -37,7 +41,8 @@ struct VerifySummary {
 /// with other seeds, drawn numbers or paths than the recipe gives; files that are missing, changed or not
 /// listed; broken formats; clouds whose number of points or labels does not match; tubes that overlap or
 /// stick out of the bin more than the recipe allows; a digest that does not match the manifest; journals of
-/// interrupted runs. Throws InputError if the directory has no readable recipe.
+/// runs that have ended. Only wanted cases are checked and missed. While runs are in progress, it checks what
+/// was finished when it began, and misses nothing. Throws InputError if the directory has no readable recipe.
 VerifySummary verify_dataset(const std::filesystem::path& directory, const VerifySettings& settings,
                              const RunObserver& observer = {});
 

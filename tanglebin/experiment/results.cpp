@@ -220,7 +220,7 @@ FinishedRuns finished_runs(const fs::path& directory) {
 }
 
 void expect_free(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings) {
-  if (fs::exists(directory / manifest_name))
+  if (fs::exists(directory / recipe_name))
     throw InputError({directory.string(), 0, ""}, "a dataset", "a directory for results");
   const fs::path file = experiment_of(directory);
   const std::optional<std::string> text = read_if_there(file);

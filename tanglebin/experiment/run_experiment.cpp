@@ -104,7 +104,10 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
   try {
     run_in_workers(jobs, missing.size(),
                    [&](std::size_t task) { return run_case(dataset, settings, missing[task]); },
-                   {.done = record, .failed = give_up, .tick = [&] { observer.progress(summary.progress); }});
+                   {.done = record,
+                    .failed = give_up,
+                    .tick = [&] { observer.progress(summary.progress); },
+                    .stopping = observer.stopping});
   } catch (...) {
     fold_journal(finished_runs(directory));
     throw;

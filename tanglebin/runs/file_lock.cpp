@@ -5,9 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include "tanglebin/io/safe_file.hpp"
@@ -17,17 +15,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* lock_name = ".lock";
+
 [[noreturn]] void fail(const fs::path& file) {
   throw_refusal(file, "cannot be locked", {errno, std::generic_category()});
 }
 
+int open_to_lock(const fs::path& file) {
+  const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (descriptor < 0) fail(file);
+  return descriptor;
+}
+
+struct flock whole_file(short type) {
+  struct flock lock {};
+  lock.l_type = type;
+  lock.l_whence = SEEK_SET;
+  return lock;
+}
+
 bool try_to_lock(int descriptor, const fs::path& file) {
-  struct flock whole_file {};
-  whole_file.l_type = F_WRLCK;
-  whole_file.l_whence = SEEK_SET;
-  if (fcntl(descriptor, F_OFD_SETLK, &whole_file) == 0) return true;
+  struct flock lock = whole_file(F_WRLCK);
+  if (fcntl(descriptor, F_OFD_SETLK, &lock) == 0) return true;
   if (errno != EAGAIN && errno != EACCES) fail(file);
   return false;
+}
+
+// False if it cannot be locked.
+bool wait_for_lock(int descriptor, short type) {
+  struct flock lock = whole_file(type);
+  while (fcntl(descriptor, F_OFD_SETLKW, &lock) != 0) {
+    if (errno != EINTR) return false;
+  }
+  return true;
 }
 
 // False if the run that had the lock before has removed the file, even if another run has created it again.
@@ -39,30 +59,14 @@ bool is_still_the_file(int descriptor, const fs::path& file) {
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-FileLock wait_for(const fs::path& file) {
-  while (true) {
-    if (std::optional<FileLock> lock = FileLock::take(file)) return std::move(*lock);
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-}
-
 }  // namespace
 
 std::optional<FileLock> FileLock::take(const fs::path& file) {
   while (true) {
-    FileLock lock(open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666));
-    if (lock.descriptor_ < 0) fail(file);
+    FileLock lock(open_to_lock(file));
     if (!try_to_lock(lock.descriptor_, file)) return std::nullopt;
     if (is_still_the_file(lock.descriptor_, file)) return lock;
   }
-}
-
-DirectoryLock::DirectoryLock(const fs::path& directory)
-    : file_(directory / ".lock"), lock_(wait_for(file_)) {}
-
-DirectoryLock::~DirectoryLock() {
-  std::error_code ignored;
-  fs::remove(file_, ignored);
 }
 
 FileLock::~FileLock() {
@@ -70,5 +74,23 @@ FileLock::~FileLock() {
 }
 
 FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+bool is_locked(const fs::path& file) {
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0) return false;
+  struct flock lock = whole_file(F_WRLCK);
+  const bool is_known = fcntl(descriptor, F_OFD_GETLK, &lock) == 0;
+  close(descriptor);
+  return is_known && lock.l_type != F_UNLCK;
+}
+
+DirectoryLock::DirectoryLock(const fs::path& directory) : lock_(open_to_lock(directory / lock_name)) {
+  if (!wait_for_lock(lock_.descriptor(), F_WRLCK)) fail(directory / lock_name);
+}
+
+DirectoryReadLock::DirectoryReadLock(const fs::path& directory)
+    : lock_(open((directory / lock_name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)) {
+  if (lock_.descriptor() >= 0) wait_for_lock(lock_.descriptor(), F_RDLCK);
+}
 
 }  // namespace tanglebin

@@ -21,22 +21,35 @@ public:
   int descriptor() const { return descriptor_; }
 
 private:
+  friend class DirectoryLock;
+  friend class DirectoryReadLock;
   explicit FileLock(int descriptor) : descriptor_(descriptor) {}
 
   int descriptor_;
 };
 
-/// A directory's lock, held while a run reads or writes files that runs of other names use too. Waits for it
-/// without limit: its owner is at work, or has ended, and then the kernel releases it.
+/// Whether somebody has the FileLock of this file, which need not exist.
+bool is_locked(const std::filesystem::path& file);
+
+/// A directory's lock, held while a run changes files that other runs use too. It is a lock of the file
+/// `.lock`, which is created once and stays. Waits for it without limit: its owner is at work, or has ended,
+/// and then the kernel releases it.
 class DirectoryLock {
 public:
   explicit DirectoryLock(const std::filesystem::path& directory);
-  ~DirectoryLock();
-  DirectoryLock(const DirectoryLock&) = delete;
-  DirectoryLock& operator=(const DirectoryLock&) = delete;
 
 private:
-  std::filesystem::path file_;
+  FileLock lock_;
+};
+
+/// The same for those who read these files: many may hold it at a time, but none beside a DirectoryLock.
+/// Holds nothing if there is no `.lock`, so that no run has been here, or if it cannot be locked, as on a
+/// read-only file system without locks.
+class DirectoryReadLock {
+public:
+  explicit DirectoryReadLock(const std::filesystem::path& directory);
+
+private:
   FileLock lock_;
 };
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -33,7 +35,7 @@ std::error_code last_error() {
   return {errno, std::generic_category()};
 }
 
-// A run that folds the journals of interrupted runs locks them briefly, together with the directory.
+// Together with the directory: a run that removes journals of ended runs has locked that.
 std::optional<FileLock> take_lock(const fs::path& file) {
   const DirectoryLock lock(file.parent_path());
   return FileLock::take(file);
@@ -46,7 +48,7 @@ FileLock wait_for_lock(const fs::path& file, std::chrono::seconds patience) {
     if (std::chrono::steady_clock::now() >= end) {
       throw SystemError(file.parent_path().string(), "another run is writing here");
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
 }
 
@@ -70,7 +72,7 @@ void cut_torn_line(const fs::path& file) {
 }  // namespace
 
 Journal::Journal(const fs::path& directory, const std::string& name)
-    : file_(directory / (stem_of(name) + std::string(extension))),
+    : file_(journal_of(directory, name)),
       staging_(staging_of(file_)),
       lock_(wait_for_lock(file_, patience_of(name))) {
   cut_torn_line(file_);
@@ -78,18 +80,10 @@ Journal::Journal(const fs::path& directory, const std::string& name)
   make_directories(staging_);
 }
 
-Journal::Journal(fs::path file, fs::path staging, FileLock lock)
-    : file_(std::move(file)), staging_(std::move(staging)), lock_(std::move(lock)) {}
-
 Journal::~Journal() {
-  if (lock_.descriptor() < 0) return;
   std::error_code ignored;
   fs::remove_all(staging_, ignored);
   if (fs::file_size(file_, ignored) == 0) fs::remove(file_, ignored);
-}
-
-bool Journal::is_empty() const {
-  return fs::file_size(file_) == 0;
 }
 
 void Journal::append(const std::vector<std::string>& lines) const {
@@ -115,14 +109,19 @@ std::vector<fs::path> journals_in(const fs::path& directory) {
   return journals;
 }
 
-std::vector<Journal> abandoned_journals(const fs::path& directory) {
-  std::vector<Journal> abandoned;
-  for (const fs::path& file : journals_in(directory)) {
-    if (std::optional<FileLock> lock = FileLock::take(file)) {
-      abandoned.push_back(Journal(file, staging_of(file), std::move(*lock)));
-    }
-  }
-  return abandoned;
+fs::path journal_of(const fs::path& directory, const std::string& name) {
+  return directory / (stem_of(name) + std::string(extension));
+}
+
+std::vector<fs::path> journals_in_use(const std::vector<fs::path>& journals) {
+  std::vector<fs::path> in_use;
+  std::ranges::copy_if(journals, std::back_inserter(in_use), is_locked);
+  return in_use;
+}
+
+void remove_journal(const fs::path& journal) {
+  fs::remove_all(staging_of(journal));
+  fs::remove(journal);
 }
 
 void for_each_whole_line(const fs::path& file,

@@ -12,9 +12,9 @@
 namespace tanglebin {
 
 /// The journal of a run in a directory: a line for each task that is done but not yet in the directory's
-/// other files. An interrupted run leaves it behind, and the next run reads it. A run keeps its journal
-/// locked, so only one run of a name can be in a directory at a time; runs of different names may work side
-/// by side. A journal has a directory beside it for unfinished files.
+/// other files. It stays behind when the run ends, until its lines are in these files. A run keeps its
+/// journal locked, so only one run of a name can be in a directory at a time; runs of different names may
+/// work side by side. A journal has a directory beside it for unfinished files.
 class Journal {
 public:
   /// Opens the journal `directory`/journal.jsonl, or journal-NAME.jsonl for a name such as "2-of-8", for this
@@ -24,13 +24,10 @@ public:
 
   /// Removes the directory for unfinished files, and the journal if it is empty.
   ~Journal();
-  Journal(Journal&&) = default;
-  Journal& operator=(Journal&&) = delete;
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
 
   const std::filesystem::path& file() const { return file_; }
-
-  /// Whether it has no lines.
-  bool is_empty() const;
 
   /// A directory on the same disk for unfinished files; empty at first.
   const std::filesystem::path& staging() const { return staging_; }
@@ -43,9 +40,6 @@ public:
   void clear() const;
 
 private:
-  friend std::vector<Journal> abandoned_journals(const std::filesystem::path& directory);
-  Journal(std::filesystem::path file, std::filesystem::path staging, FileLock lock);
-
   std::filesystem::path file_;
   std::filesystem::path staging_;
   FileLock lock_;
@@ -54,8 +48,14 @@ private:
 /// All journals in the directory, locked or not: files with a journal's name that are no symbolic links.
 std::vector<std::filesystem::path> journals_in(const std::filesystem::path& directory);
 
-/// The journals of interrupted runs, locked.
-std::vector<Journal> abandoned_journals(const std::filesystem::path& directory);
+/// The file of the journal of this name.
+std::filesystem::path journal_of(const std::filesystem::path& directory, const std::string& name);
+
+/// Those of the journals whose runs are in progress.
+std::vector<std::filesystem::path> journals_in_use(const std::vector<std::filesystem::path>& journals);
+
+/// Removes the journal of a run that has ended, with its directory for unfinished files.
+void remove_journal(const std::filesystem::path& journal);
 
 /// Calls `take` with every whole line of the file and its number; skips a last line without an end. A missing
 /// file has no lines. Throws InputError for a file that cannot be read.

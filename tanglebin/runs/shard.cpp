@@ -10,6 +10,8 @@
 namespace tanglebin {
 namespace {
 
+constexpr const char* slurm_index = "SLURM_ARRAY_TASK_ID";
+constexpr const char* kubernetes_index = "JOB_COMPLETION_INDEX";
 constexpr std::string_view remedy = "; --shard I/N says which part to make";
 
 std::optional<int> number_in(const Environment& environment, const std::string& name) {
@@ -35,7 +37,7 @@ Shard checked(const Shard& shard, const std::string& variable, int found) {
 }
 
 std::optional<Shard> slurm_shard(const Environment& environment) {
-  const std::optional<int> id = number_in(environment, "SLURM_ARRAY_TASK_ID");
+  const std::optional<int> id = number_in(environment, slurm_index);
   if (!id) return std::nullopt;
   constexpr std::string_view who = "SLURM_ARRAY_TASK_ID is";
   const int count = required_number_in(environment, "SLURM_ARRAY_TASK_COUNT", who);
@@ -47,20 +49,27 @@ std::optional<Shard> slurm_shard(const Environment& environment) {
                      fmt::format("{}, the last of {} numbers without a gap{}", last, count, remedy));
   }
   const bool is_on_a_step = step > 0 && (*id - first) % step == 0;
-  return checked({is_on_a_step ? (*id - first) / step + 1 : 0, count}, "SLURM_ARRAY_TASK_ID", *id);
+  return checked({is_on_a_step ? (*id - first) / step + 1 : 0, count}, slurm_index, *id);
 }
 
 std::optional<Shard> kubernetes_shard(const Environment& environment) {
-  const std::optional<int> index = number_in(environment, "JOB_COMPLETION_INDEX");
+  const std::optional<int> index = number_in(environment, kubernetes_index);
   if (!index) return std::nullopt;
   const int count = required_number_in(environment, "JOB_COMPLETIONS", "JOB_COMPLETION_INDEX is");
-  return checked({*index + 1, count}, "JOB_COMPLETION_INDEX", *index);
+  return checked({*index + 1, count}, kubernetes_index, *index);
 }
 
 }  // namespace
 
 std::string name_of(const Shard& shard) {
   return fmt::format("{}-of-{}", shard.index, shard.count);
+}
+
+std::optional<std::string> array_variable(const Environment& environment) {
+  for (const char* name : {slurm_index, kubernetes_index}) {
+    if (environment(name)) return name;
+  }
+  return std::nullopt;
 }
 
 std::optional<Shard> shard_from(const Environment& environment) {

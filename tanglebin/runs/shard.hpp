@@ -31,6 +31,10 @@ std::string name_of(const Shard& shard);
 /// Looks up an environment variable; nullopt if it is not set.
 using Environment = std::function<std::optional<std::string>(const std::string& name)>;
 
+/// The variable that says that this process is one of many: SLURM_ARRAY_TASK_ID in a Slurm array,
+/// JOB_COMPLETION_INDEX in a Kubernetes indexed job; nullopt outside of these.
+std::optional<std::string> array_variable(const Environment& environment);
+
 /// The shard that a cluster's queue assigns to this process: in a Slurm array (SLURM_ARRAY_TASK_ID, _COUNT,
 /// _MIN and _STEP) or a Kubernetes indexed job (JOB_COMPLETION_INDEX, and JOB_COMPLETIONS, which the job's
 /// manifest must set). nullopt outside of these. Throws InputError if the variables contradict each other.

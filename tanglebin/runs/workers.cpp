@@ -64,6 +64,15 @@ public:
 
   int descriptor() const { return descriptor_; }
 
+  /// Lets the other end know that nothing more comes.
+  void end() const { shutdown(descriptor_, SHUT_WR); }
+
+  /// Whether the other end has called end(), if nothing is left to receive.
+  bool has_ended() const {
+    char byte = 0;
+    return recv(descriptor_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
+  }
+
   bool send_bytes(const void* bytes, std::size_t size) const {
     const auto* from = static_cast<const char*>(bytes);
     while (size > 0) {
@@ -92,7 +101,7 @@ private:
   int descriptor_;
 };
 
-enum class Outcome : std::uint32_t { done, bad_input, refused, impossible, exception };
+enum class Outcome : std::uint32_t { done, bad_input, refused, impossible, stopped, exception };
 
 /// A worker's answer.
 struct Answer {
@@ -123,10 +132,15 @@ Answer answer_of(const Task& task, std::size_t number) {
     return {Outcome::refused, error.what()};
   } catch (const TaskImpossible& error) {
     return {Outcome::impossible, error.what()};
+  } catch (const TaskStopped&) {
+    return {Outcome::stopped, {}};
   } catch (const std::exception& error) {
     return {Outcome::exception, error.what()};
   }
 }
+
+// In a worker: its line to the parent.
+const Line* line_of_worker = nullptr;
 
 // Runs in a worker. The parent handles signals.
 void work(const Line& line, const Task& task, pid_t parent) {
@@ -134,6 +148,7 @@ void work(const Line& line, const Task& task, pid_t parent) {
   std::signal(SIGTERM, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) return;  // it was gone before prctl()
+  line_of_worker = &line;
   std::uint64_t number = 0;
   while (line.receive_bytes(&number, sizeof(number))) {
     if (!send_answer(line, answer_of(task, number))) return;
@@ -155,9 +170,9 @@ std::string end_of(int status) {
 /// The workers and their tasks.
 class Crew {
 public:
-  Crew(std::size_t count, const Task& task, const WorkersObserver& observer)
-      : count_(count), task_(task), observer_(observer) {}
-  // Lets the workers finish their tasks.
+  Crew(std::size_t count, const Task& task, const WorkersObserver& observer, TimeLimit limit)
+      : count_(count), task_(task), observer_(observer), limit_(limit) {}
+  // Lets the workers finish their tasks, unless there is a signal.
   ~Crew() {
     for (Worker& worker : workers_) bury(worker);
   }
@@ -194,7 +209,7 @@ public:
     return std::ranges::any_of(workers_, [](const Worker& worker) { return worker.task.has_value(); });
   }
 
-  void stop() { stopped_ = true; }
+  bool was_interrupted() const { return interrupted_at_.has_value(); }
 
   /// Throws the first error of a task that ended the run.
   void rethrow() const {
@@ -210,12 +225,13 @@ public:
     for (const Worker& worker : workers_) lines.push_back({worker.line->descriptor(), POLLIN, 0});
     constexpr int milliseconds = 100;
     if (poll(lines.data(), lines.size(), milliseconds) < 0 && errno != EINTR) throw_last_error("poll");
-    if (interrupted != 0) stop();
+    if (interrupted != 0) take_interrupt();
 
     std::vector<TaskResult> results;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (lines[i].revents != 0) listen_to(workers_[i], results);
     }
+    end_slow_tasks();
     const std::size_t dead = std::erase_if(workers_, [](const Worker& worker) { return !worker.line; });
     hand_out_tasks();
     if (!results.empty()) observer_.done(results);
@@ -227,6 +243,39 @@ public:
 private:
   [[noreturn]] static void throw_last_error(const char* what) {
     throw std::system_error(errno, std::generic_category(), what);
+  }
+
+  // What runs commands, such as timeout(1), may send a signal twice at once, which is one wish.
+  void take_interrupt() {
+    constexpr std::chrono::milliseconds one_wish{500};
+    interrupted = 0;
+    if (!interrupted_at_) {
+      interrupted_at_ = Clock::now();
+      stop();
+      observer_.stopping();
+    } else if (Clock::now() - *interrupted_at_ > one_wish) {
+      for (const Worker& worker : workers_) kill(worker.process, SIGKILL);
+      for (Worker& worker : workers_) worker.task.reset();
+    }
+  }
+
+  // Hands out no more tasks, and lets those under way know.
+  void stop() {
+    stopped_ = true;
+    for (const Worker& worker : workers_) {
+      if (worker.line) worker.line->end();
+    }
+  }
+
+  void end_slow_tasks() {
+    for (Worker& worker : workers_) {
+      if (!worker.task || Clock::now() - worker.since <= limit_) continue;
+      kill(worker.process, SIGKILL);
+      bury(worker);
+      failures_.push_back({*worker.task, fmt::format("took longer than {:g} s",
+                                                     std::chrono::duration<double>(limit_).count())});
+      worker.task.reset();
+    }
   }
 
   std::optional<std::size_t> next_task() {
@@ -272,6 +321,9 @@ private:
       case Outcome::impossible:
         failures_.push_back({task, std::move(answer->text)});
         break;
+      case Outcome::stopped:
+        again_.push_front(task);
+        break;
       case Outcome::exception:
         retry_or_give_up(task, answer->text);
         break;
@@ -295,13 +347,16 @@ private:
   static int bury(Worker& worker) {
     worker.line.reset();
     int status = 0;
-    while (waitpid(worker.process, &status, 0) < 0 && errno == EINTR) continue;
+    while (waitpid(worker.process, &status, 0) < 0 && errno == EINTR) {
+      if (interrupted != 0) kill(worker.process, SIGKILL);
+    }
     return status;
   }
 
   std::size_t count_;
   const Task& task_;
   const WorkersObserver& observer_;
+  TimeLimit limit_;
   std::vector<Worker> workers_;
   std::size_t next_ = 0;           ///< task to hand out next
   std::deque<std::size_t> again_;  ///< before that, those to try again
@@ -309,18 +364,24 @@ private:
   std::vector<TaskFailure> failures_;
   std::optional<Answer> end_;  ///< an error that ends the run
   bool stopped_ = false;       ///< hand out no more
+  std::optional<Clock::time_point> interrupted_at_;
 };
 
 }  // namespace
 
-bool run_in_workers(int jobs, std::size_t count, const Task& task, const WorkersObserver& observer) {
+void stop_if_asked() {
+  if (line_of_worker != nullptr && line_of_worker->has_ended()) throw TaskStopped();
+}
+
+bool run_in_workers(int jobs, std::size_t count, const Task& task, const WorkersObserver& observer,
+                    TimeLimit limit) {
   const InterruptGuard guard;
-  Crew crew(count, task, observer);
+  Crew crew(count, task, observer, limit);
   for (int i = 0; i < jobs && static_cast<std::size_t>(i) < count; ++i) crew.hire();
   crew.hand_out_tasks();
   while (crew.is_under_way()) crew.turn();
   crew.rethrow();
-  return interrupted == 0;
+  return !crew.was_interrupted() && interrupted == 0;
 }
 
 int interrupting_signal() {

@@ -153,6 +153,8 @@ void validate(const SettleSettings& settings) {
   positive(settings.proof_motion, "proof_motion");
   positive(settings.overlap_max, "overlap_max");
   positive(settings.time_limit, "time_limit");
+  require(settings.time_limit <= 1e6 * settings.step, "step", settings.step,
+          "at least a millionth of settle.time_limit");
 }
 
 }  // namespace tanglebin

@@ -62,13 +62,23 @@ std::string no_valid_scene(const CaseId& id, const std::vector<Rejection>& rejec
   return text + "; try fewer tubes, a larger bin or more attempts";
 }
 
+// If a tube falls out each time, the tubes do not fit. Other faults, such as a heap that creeps, may be bad
+// luck.
+bool is_hopeless(const std::vector<Rejection>& rejections, int attempts) {
+  constexpr const char* overflow = "a tube left the bin";  // as settle() says it
+  constexpr int share = 4;
+  return static_cast<int>(rejections.size()) == (attempts + share - 1) / share &&
+         std::ranges::all_of(rejections, [](const Rejection& r) { return r.fault == overflow; });
+}
+
 }  // namespace
 
-Scene simulate(const Recipe& recipe, const CaseId& id) {
+Scene simulate(const Recipe& recipe, const CaseId& id, const std::function<void()>& before_attempt) {
   const SetRecipe& set = set_named(recipe, id.set);
   StageTimes times;
   std::vector<Rejection> rejections;
-  for (int attempt = 1; attempt <= recipe.attempts; ++attempt) {
+  for (int attempt = 1; attempt <= recipe.attempts && !is_hopeless(rejections, recipe.attempts); ++attempt) {
+    before_attempt();
     const std::uint64_t seed = attempt_seed(recipe.seed, id.set, id.tubes, id.number, attempt);
     Rng rng(seed);
     const std::vector<Tube> tubes = [&] {

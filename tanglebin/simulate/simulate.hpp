@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,9 @@ struct Scene {
 /// and draws again while the heap is invalid (settle.hpp). The scene depends only on (recipe seed, set,
 /// number of tubes, case number, attempt). The tubes' numbers are whole nanometres (quaternions: billionths),
 /// so the text format stores the scene exactly. Throws InputError with the reasons after recipe.attempts
-/// failures.
-Scene simulate(const Recipe& recipe, const CaseId& id);
+/// failures, or after a quarter of them if a tube left the bin in each: more tubes than fit. Calls
+/// `before_attempt` before each attempt; what it throws ends the simulation.
+Scene simulate(
+    const Recipe& recipe, const CaseId& id, const std::function<void()>& before_attempt = [] {});
 
 }  // namespace tanglebin

@@ -57,6 +57,13 @@ bend_max_deg = 45
     return "generate " + recipe_.string() + " --out " + out(name) + " " + more;
   }
 
+  // Runs the program with these variables.
+  static test::ProgramResult run_in(const std::string& environment, const std::string& arguments) {
+    return run_shell(environment + " " + TANGLEBIN_PROGRAM + " " + arguments);
+  }
+  static constexpr const char* slurm_task_2_of_4 =
+      "SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_COUNT=4 SLURM_ARRAY_TASK_MIN=1";
+
   TemporaryDirectory directory_;
   std::filesystem::path recipe_ = directory_ / "recipe.toml";
 };
@@ -66,7 +73,7 @@ TEST_F(Generate, MakesTheRecipesCasesAndSaysSo) {
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("dataset: 9 cases generated in "));
   EXPECT_EQ(result.err, "");  // no progress where standard error is no terminal
-  EXPECT_EQ(files_below(out()).size(), 9 * 3 + 4U);
+  EXPECT_EQ(files_below(out()).size(), 9 * 3 + 5U);
 }
 
 TEST_F(Generate, MakesOnlyTheCasesAskedForAndGoesOnLater) {
@@ -127,20 +134,39 @@ TEST_F(Generate, AnyShardsInOneDirectoryAreTheRunInOnePiece) {
   EXPECT_EQ(shared, whole);
 }
 
-TEST_F(Generate, TakesTheShardFromTheQueuesEnvironmentUnlessItIsGiven) {
+TEST_F(Generate, TakesTheShardFromTheQueuesEnvironmentIfAsked) {
   const auto made = [&](const std::string& environment, const std::string& options, const std::string& name) {
-    const auto result =
-        run_shell(environment + " " + TANGLEBIN_PROGRAM + " " + command("--json " + options, name));
-    EXPECT_EQ(result.status, 0) << result.err;
+    const auto result = run_in(environment, command("--json " + options, name));
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.err, "");
     return nlohmann::json::parse(result.out)["made"].get<int>();
   };
-  const std::string slurm = "SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_COUNT=4 SLURM_ARRAY_TASK_MIN=1";
-  EXPECT_EQ(made(slurm, "", "slurm"), 2);
-  EXPECT_EQ(made("JOB_COMPLETION_INDEX=0 JOB_COMPLETIONS=4", "", "kubernetes"), 3);
-  EXPECT_EQ(made(slurm, "--shard 1/1", "all"), 9);
-  const auto wrong = run_shell("JOB_COMPLETION_INDEX=0 " + std::string(TANGLEBIN_PROGRAM) + " " + command());
+  EXPECT_EQ(made(slurm_task_2_of_4, "--shard auto", "slurm"), 2);
+  EXPECT_EQ(made("JOB_COMPLETION_INDEX=0 JOB_COMPLETIONS=4", "--shard auto", "kubernetes"), 3);
+  EXPECT_EQ(made(slurm_task_2_of_4, "--shard 1/1", "all"), 9);
+  const auto wrong = run_in("JOB_COMPLETION_INDEX=0", command("--shard auto"));
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.err, HasSubstr("JOB_COMPLETIONS: not set"));
+}
+
+TEST_F(Generate, MakesAllCasesInAnArrayOverSomethingElseAndSaysSo) {
+  const auto one_of_many = run_in(slurm_task_2_of_4, command("--json"));
+  EXPECT_EQ(one_of_many.status, 0);
+  EXPECT_EQ(nlohmann::json::parse(one_of_many.out)["made"], 9);
+  EXPECT_EQ(one_of_many.err,
+            "tanglebin: making all cases, though SLURM_ARRAY_TASK_ID is set; --shard auto makes only this "
+            "task's part\n");
+  // Numbers that define no shards, as in --array=1,3,7, are no business of such a run.
+  EXPECT_EQ(run_in("SLURM_ARRAY_TASK_ID=7", command()).status, 0);
+}
+
+TEST_F(Generate, OutsideOfAnArrayThereIsNoShardToFind) {
+  const auto result = run_program(command("--shard auto"));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(
+      result.err,
+      "tanglebin: --shard: found auto, but neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX is set, "
+      "expected a Slurm job array or a Kubernetes indexed job; give I/N elsewhere\n");
 }
 
 TEST_F(Generate, TellsAProgramOfEachEventInALineOfJson) {
@@ -231,9 +257,30 @@ TEST_F(Generate, BadInputIsExitStatusTwoAndOneLine) {
   expect_error("generate " + (directory_ / "none.toml").string() + " --out " + out(), "none.toml: ");
   expect_error(command("--set C"), "no case matches --set, --tubes and --cases");
   expect_error(command("--cases 3-1"), "--cases: found '3-1', expected a number or a range such as 1-20");
-  expect_error(command("--shard 3/2"), "--shard: found '3/2', expected I/N with I from 1 to N, such as 2/8");
+  expect_error(command("--shard 3/2"),
+               "--shard: found '3/2', expected I/N with I from 1 to N, such as 2/8, or auto");
   expect_error("generate " + recipe_.string() + " --out /proc/dataset", "/proc/dataset");
   EXPECT_FALSE(std::filesystem::exists(out()));
+  std::filesystem::create_directory(out("results"));
+  write_bytes(out("results") + "/experiment.json", "{}");
+  expect_error(command("", "results"),
+               "results: found the results of an experiment, expected a dataset or an empty directory");
+}
+
+TEST_F(Generate, ACaseThatTakesTooLongIsAFailedOne) {
+  // No heap is at rest so soon, and nobody waits for so many attempts.
+  write_bytes(recipe_, "attempts = 1000000000\n" + std::string(recipe) + "[settle]\ntime_limit = 0.05\n");
+  const auto result = run_program(command("--set A --tubes 2 --cases 1 --case-limit 0.3"));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("tanglebin: A2/1: failed: took longer than 0.3 s"));
+}
+
+TEST_F(Generate, AShardSaysThatOthersAreToCome) {
+  EXPECT_THAT(run_program(command("--shard 1/2")).out,
+              HasSubstr("dataset: other shards are to come or in progress; the last to end completes the "
+                        "manifest\n"));
+  EXPECT_TRUE(nlohmann::json::parse(run_program(command("--shard 1/2 --json")).out)["dataset"].is_null());
+  EXPECT_THAT(run_program(command("--shard 2/2")).out, HasSubstr("dataset: complete, 9 cases, digest "));
 }
 
 TEST_F(Generate, WrongUsageIsExitStatus64) {

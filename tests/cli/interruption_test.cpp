@@ -67,10 +67,12 @@ public:
     return text;
   }
 
+  void interrupt(int signal = SIGINT) const { kill(process_, signal); }
+
   void interrupt_after_a_case(int signal = SIGINT) {
     std::string text = line();
     while (!text.empty() && text.find("\"event\":\"case\"") == std::string::npos) text = line();
-    kill(process_, signal);
+    interrupt(signal);
   }
 
   std::string last_line() {
@@ -101,6 +103,12 @@ protected:
   std::string generate(const std::string& more) const {
     return "generate " + path("recipe.toml") + " --out " + path("dataset") + " " + more;
   }
+  // No heap is at rest so soon, and nobody waits for so many attempts.
+  std::string generate_without_end() const {
+    write_bytes(directory_ / "recipe.toml",
+                "attempts = 1000000000\n" + recipe + "[settle]\ntime_limit = 0.05\n");
+    return generate("");
+  }
   std::vector<std::string> names_in_dataset() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(path("dataset")))
@@ -119,8 +127,8 @@ TEST_F(Interruption, OfGenerateFinishesTheCasesUnderWayAndLeavesADatasetAndNothi
   EXPECT_EQ(end.at("complete"), false);
   EXPECT_GT(end.at("made"), 0);
   EXPECT_EQ(end.at("dataset").at("cases"), end.at("made"));
-  EXPECT_THAT(names_in_dataset(),
-              UnorderedElementsAre("A1", "recipe.toml", "manifest.jsonl", "times.jsonl", "dataset.json"));
+  EXPECT_THAT(names_in_dataset(), UnorderedElementsAre("A1", "recipe.toml", "manifest.jsonl", "times.jsonl",
+                                                       "dataset.json", ".lock"));
   const auto rest = nlohmann::json::parse(run_program(generate("--json")).out);
   EXPECT_EQ(rest.at("found"), end.at("made"));
   EXPECT_EQ(rest.at("complete"), true);
@@ -131,6 +139,23 @@ TEST_F(Interruption, BySigtermHasAnExitStatusOfItsOwn) {
   program.interrupt_after_a_case(SIGTERM);
   EXPECT_EQ(nlohmann::json::parse(program.last_line()).at("complete"), false);
   EXPECT_EQ(program.exit_status(), 143);
+}
+
+TEST_F(Interruption, OfACaseWithoutAValidSceneEndsItAfterTheAttempt) {
+  generate_without_end();
+  RunningProgram program({"generate", path("recipe.toml"), "--out", path("dataset"), "--progress", "json"});
+  program.line();  // of progress: it has begun
+  program.interrupt();
+  const auto end = nlohmann::json::parse(program.last_line());
+  EXPECT_EQ(program.exit_status(), 130);
+  EXPECT_EQ(end.at("made"), 0);
+  EXPECT_EQ(end.at("failed"), 0);
+}
+
+TEST_F(Interruption, IsAnsweredAtOnce) {
+  const ProgramResult result = run_shell("timeout --foreground --signal=INT 1 " +
+                                         std::string(TANGLEBIN_PROGRAM) + " " + generate_without_end());
+  EXPECT_EQ(result.err, "tanglebin: stopping after the cases in progress; once more to end at once\n");
 }
 
 TEST_F(Interruption, OfARepairEndsItWithoutAnotherVerification) {

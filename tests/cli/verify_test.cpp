@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tanglebin/runs/journal.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/recipe_text.hpp"
 
@@ -99,6 +100,28 @@ TEST_F(Verify, NamesOfFilesArePrintedWithoutControlCharacters) {
   EXPECT_EQ(missing.err,
             "tanglebin: /no\\x1b[31m\\nne/recipe.toml: cannot be opened: No such file or directory\n");
   EXPECT_THAT(run_program("verify \"" + name + "\" --\"" + name + "\"").err, testing::Not(HasSubstr("\x1b")));
+}
+
+TEST_F(Verify, OfAPartCanBeOfTheCasesThatItHas) {
+  ASSERT_EQ(run_program("generate - --cases 2 --out " + path("part"), recipe).status, 0);
+  const ProgramResult all = run_program("verify " + path("part"));
+  EXPECT_EQ(all.status, 4);
+  EXPECT_THAT(all.out, StartsWith("missing: 2 of 3 cases: A2/1, A2/3\n"));
+  EXPECT_EQ(run_program("verify --cases 2 " + path("part")).status, 0);
+  EXPECT_EQ(run_program("verify --cases 2-3 " + path("part")).status, 4);
+  EXPECT_EQ(run_program("verify --cases 4 " + path("part")).status, 2);
+}
+
+TEST_F(Verify, SaysThatARunIsInProgressAndDoesNotRepairBesideIt) {
+  const Journal running(path("dataset"), "2-of-3");
+  const ProgramResult result = verify();
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, StartsWith("journal-2-of-3.jsonl: a run is in progress; "));
+  EXPECT_EQ(nlohmann::json::parse(verify("--json").out)["notes"].size(), 1U);
+  const ProgramResult repair = verify("--repair");
+  EXPECT_EQ(repair.status, 2);
+  EXPECT_EQ(repair.err, "tanglebin: " + path("dataset") +
+                            ": a run is in progress; repair the dataset when it has ended\n");
 }
 
 TEST_F(Verify, BadInputIsExitStatusTwo) {

@@ -74,7 +74,7 @@ class StoredDigest : public testing::Test {
 protected:
   static std::string digest_of(const Recipe& recipe) {
     const TemporaryDirectory directory;
-    return generate_dataset(recipe, cases(recipe), directory.path(), 2).dataset.digest;
+    return generate_dataset(recipe, cases(recipe), directory.path(), 2).dataset->digest;
   }
 };
 

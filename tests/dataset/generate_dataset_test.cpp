@@ -144,7 +144,7 @@ TEST(GenerateDataset, WritesThePublishedLayoutAndAManifestOfIt) {
     EXPECT_EQ(read_configuration(directory / record.files[1].path).size(),
               static_cast<std::size_t>(id.tubes));
   }
-  EXPECT_EQ(files.size(), listed + 4);  // the manifest, its digest, the times and the recipe
+  EXPECT_EQ(files.size(), listed + 5);  // the manifest, its digest, the times, the recipe and the lock
   std::istringstream written(files.at("recipe.toml"));
   EXPECT_EQ(cases(read_recipe(written, "recipe.toml")), cases(recipe));
 }

@@ -55,7 +55,7 @@ TEST_F(MergeDatasets, PartsThatWereMadeApartAreTheRunInOnePiece) {
   make_parts(4);
   const FillSummary summary = merge_datasets(parts_, merged_, 2);
   EXPECT_EQ(summary.progress.made, 6U);
-  EXPECT_TRUE(summary.dataset.is_complete());
+  EXPECT_TRUE(summary.dataset->is_complete());
   EXPECT_EQ(dataset_in(merged_), whole());
 }
 
@@ -67,7 +67,7 @@ TEST_F(MergeDatasets, KeepHowLongEachCaseTook) {
 
 TEST_F(MergeDatasets, SomeOfThePartsAreASmallerDatasetThatGrowsLater) {
   make_parts(3);
-  EXPECT_EQ(merge_datasets({parts_[2]}, merged_, 1).dataset.cases, 2U);
+  EXPECT_EQ(merge_datasets({parts_[2]}, merged_, 1).dataset->cases, 2U);
   const FillSummary rest = merge_datasets(parts_, merged_, 1);
   EXPECT_EQ(rest.progress.found, 2U);
   EXPECT_EQ(rest.progress.made, 4U);
@@ -169,8 +169,7 @@ TEST_F(MergeDatasets, AFolderThatIsALinkToOutsideIsAnErrorWhereFilesAreReadAndWr
   std::filesystem::remove(parts_[0] / "A1");
   std::filesystem::rename(elsewhere, parts_[0] / "A1");
   std::filesystem::create_directories(elsewhere);
-  std::filesystem::remove_all(merged_);
-  std::filesystem::create_directory(merged_);
+  std::filesystem::remove_all(merged_ / "A1");
   std::filesystem::create_symlink(elsewhere, merged_ / "A1");
   EXPECT_THAT(complaint([&] { merge_datasets(parts_, merged_, 1); }), HasSubstr("a folder that leads to "));
   EXPECT_TRUE(std::filesystem::is_empty(elsewhere));  // not even a folder

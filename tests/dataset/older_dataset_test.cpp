@@ -42,7 +42,7 @@ TEST_F(OlderDataset, IsResumedAndKeepsItsRecipeAsItIs) {
   const FillSummary summary =
       generate_dataset(recipe_of_source(), cases(recipe_of_source()), directory_.path(), 1);
   EXPECT_EQ(summary.progress.found, 1U);
-  EXPECT_TRUE(summary.dataset.is_complete());
+  EXPECT_TRUE(summary.dataset->is_complete());
   EXPECT_EQ(bytes_of(directory_ / "recipe.toml"), test::recipe_of_0_1_0);
   EXPECT_THAT(verify_dataset(directory_.path(), {}).faults, IsEmpty());
 }
@@ -52,8 +52,8 @@ TEST_F(OlderDataset, IsMergedWithANewerOne) {
   const TemporaryDirectory merged;
   generate_dataset(recipe_of_source(), {{"A", 2, 2}}, newer.path(), 1);
   EXPECT_NE(bytes_of(newer / "recipe.toml"), test::recipe_of_0_1_0);
-  EXPECT_TRUE(merge_datasets({directory_.path(), newer.path()}, merged.path(), 1).dataset.is_complete());
-  EXPECT_TRUE(merge_datasets({newer.path(), directory_.path()}, merged.path(), 1).dataset.is_complete());
+  EXPECT_TRUE(merge_datasets({directory_.path(), newer.path()}, merged.path(), 1).dataset->is_complete());
+  EXPECT_TRUE(merge_datasets({newer.path(), directory_.path()}, merged.path(), 1).dataset->is_complete());
 }
 
 TEST_F(OlderDataset, IsReadForExperiments) {

@@ -13,7 +13,10 @@
 #include "tanglebin/dataset/repair_dataset.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/io/configuration.hpp"
+#include "tanglebin/runs/journal.hpp"
+#include "tanglebin/runs/shard.hpp"
 #include "tests/dataset/small_recipe.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
@@ -121,8 +124,7 @@ TEST_F(VerifyDataset, FindsAndRepairsLinesOfTheManifestThatAreDamagedMissingOrTh
   write_bytes(path("manifest.jsonl"), manifest);
   const std::vector<std::string> found = faults();
   EXPECT_THAT(found, Contains("A1/1: is in the manifest twice (manifest.jsonl:6)"));
-  EXPECT_THAT(found, Contains("A1/2: missing"));
-  EXPECT_THAT(found, Contains("A3/3: missing"));
+  EXPECT_THAT(found, Contains("missing: 2 of 6 cases: A1/2, A3/3"));
   EXPECT_THAT(found, Contains("A3/plys/3.ply: not in the manifest"));
   EXPECT_THAT(found, Contains(HasSubstr("manifest.jsonl:2: ")));
   EXPECT_THAT(found, Contains(HasSubstr("dataset.json: digest: found ")));
@@ -204,7 +206,80 @@ TEST_F(VerifyDataset, FindsWhatRunsThatWereCutOffLeft) {
       faults(),
       ElementsAre(
           "A1/plys/99.ply: not in the manifest",
-          "journal-2-of-3.jsonl: a run is in progress or was interrupted; the same command resumes it"));
+          "journal-2-of-3.jsonl: its run has ended, but its cases are not in the manifest yet; the same "
+          "command resumes it, and --repair completes the manifest"));
+}
+
+TEST_F(VerifyDataset, NamesFilesThatLookLikeItsOwnAsNoFault) {
+  write_bytes(path("results.jsonl"), "");
+  write_bytes(path("splits.json"), "{}");
+  write_bytes(path("notes.txt"), "of the user");
+  EXPECT_THAT(faults(), IsEmpty());
+  std::vector<std::string> where;
+  for (const DatasetFault& note : verify().notes) where.push_back(note.where);
+  EXPECT_THAT(where, ElementsAre("results.jsonl", "splits.json"));
+}
+
+TEST_F(VerifyDataset, ChecksAndMissesOnlyTheWantedCases) {
+  std::string manifest = bytes_of(path("manifest.jsonl"));
+  write_bytes(path("manifest.jsonl"), manifest.substr(0, manifest.find('\n', manifest.find('\n') + 1) + 1));
+  write_bytes(path("A1/plys/2.ply"), "ply\n");
+  EXPECT_THAT(faults(), Contains("missing: 4 of 6 cases: A1/3, A3/1-3"));
+  const VerifySummary two = verify_dataset(path(), {.wanted = std::vector<CaseId>{{"A", 1, 1}, {"A", 1, 3}}});
+  EXPECT_THAT(two.broken, ElementsAre(CaseId{"A", 1, 3}));
+  EXPECT_EQ(two.faults.back().what, "1 of 2 cases: A1/3");
+  for (const DatasetFault& fault : two.faults) EXPECT_NE(fault.where, "A1/plys/2.ply");
+}
+
+/// A dataset of which one of two shards has been made.
+class VerifyHalfADataset : public VerifyDataset {
+protected:
+  VerifyHalfADataset() {
+    generate_dataset(recipe_, part_of({1, 2}, cases(recipe_)), half_, 2, {}, Shard{1, 2});
+  }
+  VerifySummary verify_half() const { return verify_dataset(half_, {.jobs = 2}); }
+
+  const TemporaryDirectory other_;
+  const fs::path half_ = other_ / "half";
+};
+
+TEST_F(VerifyHalfADataset, FindsNoFaultWhereARunIsInProgress) {
+  const Journal running(half_, "2-of-2");
+  write_bytes(half_ / "A1/plys/2.ply", "of a case under way");
+  const VerifySummary summary = verify_half();
+  EXPECT_TRUE(summary.is_in_progress);
+  EXPECT_THAT(summary.faults, IsEmpty());
+  EXPECT_THAT(summary.broken, IsEmpty());
+  ASSERT_THAT(summary.notes, testing::SizeIs(1));
+  EXPECT_EQ(summary.notes[0].where, "journal-2-of-2.jsonl");
+  EXPECT_EQ(summary.cases, 3U);
+
+  write_bytes(half_ / "A1/plys/1.ply", "of a finished one");
+  write_bytes(half_ / "A1/plys/99.ply", "of none");
+  std::vector<std::string> where;
+  for (const DatasetFault& fault : verify_half().faults) where.push_back(fault.where);
+  EXPECT_THAT(where, ElementsAre("A1/plys/1.ply", "A1/plys/99.ply"));
+}
+
+TEST_F(VerifyHalfADataset, IsNotRepairedWhileARunIsInProgress) {
+  const VerifySummary before = verify_half();
+  const Journal running(half_, "2-of-2");
+  EXPECT_EQ(
+      test::complaint([&] { repair_dataset(half_, before, 1); }),
+      half_.string() +
+          ": found a run in progress (journal-2-of-2.jsonl), expected none while a dataset is repaired");
+}
+
+TEST_F(VerifyHalfADataset, MissesTheOtherHalfAndTheManifestAndRepairsBoth) {
+  const VerifySummary summary = verify_half();
+  ASSERT_THAT(summary.faults, testing::SizeIs(2));
+  EXPECT_EQ(summary.faults[0].where, "journal-1-of-2.jsonl");
+  EXPECT_EQ(summary.faults[1].what, "3 of 6 cases: A1/2, A3/1, A3/3");
+  repair_dataset(half_, summary, 2);
+  EXPECT_THAT(verify_half().faults, IsEmpty());
+  auto repaired = files_below(half_);
+  repaired.erase("times.jsonl");
+  EXPECT_EQ(repaired, before_);
 }
 
 TEST_F(VerifyDataset, FindsCasesThatHaveFailed) {

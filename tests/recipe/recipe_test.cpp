@@ -764,6 +764,8 @@ TEST(RecipeErrors, NameANumberOutOfItsRange) {
       << "a mirror image is no rotation";
   EXPECT_THAT(complaint("[settle]\nerp = 0.2\nstep = -1\n" + smallest),
               HasSubstr("r.toml:3: settle.step: found -1"));
+  EXPECT_EQ(complaint("[settle]\nstep = 1e-12\n" + smallest),
+            "r.toml:2: settle.step: found 1e-12, expected at least a millionth of settle.time_limit");
 }
 
 TEST(RecipeErrors, NameTheTubeThatCannotBeDrawn) {

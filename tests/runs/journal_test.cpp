@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,50 @@ TEST(FileLock, OfAFileThatWasRemovedMeanwhileIsOfTheNewFile) {
   EXPECT_FALSE(FileLock::take(directory / "file"));
 }
 
+// Another process that takes the directory's lock and leaves a file when it has it. `held` is this process's.
+template <typename Lock, typename Held>
+pid_t start_locking(const TemporaryDirectory& directory, std::optional<Held>& held) {
+  const pid_t other = fork();
+  if (other != 0) return other;
+  held.reset();  // the other process's copy
+  const Lock lock(directory.path());
+  write_bytes(directory / "locked", "");
+  _exit(0);
+}
+
+template <typename Lock, typename Held>
+void expect_to_wait(const TemporaryDirectory& directory) {
+  std::optional<Held> held(std::in_place, directory.path());
+  const pid_t other = start_locking<Lock>(directory, held);
+  usleep(50'000);
+  EXPECT_FALSE(std::filesystem::exists(directory / "locked"));
+  held.reset();
+  waitpid(other, nullptr, 0);
+  EXPECT_TRUE(std::filesystem::remove(directory / "locked"));
+}
+
+TEST(DirectoryLock, KeepsOthersWaitingAndItsFileStays) {
+  const TemporaryDirectory directory;
+  expect_to_wait<DirectoryLock, DirectoryLock>(directory);
+  expect_to_wait<DirectoryReadLock, DirectoryLock>(directory);
+  expect_to_wait<DirectoryLock, DirectoryReadLock>(directory);
+  EXPECT_TRUE(std::filesystem::exists(directory / ".lock"));
+}
+
+TEST(DirectoryLock, LetsReadersInTogether) {
+  const TemporaryDirectory directory;
+  { const DirectoryLock creates_the_file(directory.path()); }
+  std::optional<DirectoryReadLock> held(std::in_place, directory.path());
+  waitpid(start_locking<DirectoryReadLock>(directory, held), nullptr, 0);
+  EXPECT_TRUE(std::filesystem::exists(directory / "locked"));
+}
+
+TEST(DirectoryLock, OfReadersCreatesNothing) {
+  const TemporaryDirectory directory;
+  const DirectoryReadLock lock(directory.path());
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+}
+
 TEST(Journal, HasALineForEachTaskAndIsGoneWhenItIsEmpty) {
   const TemporaryDirectory directory;
   {
@@ -68,7 +113,7 @@ TEST(Journal, HasALineForEachTaskAndIsGoneWhenItIsEmpty) {
     EXPECT_EQ(bytes_of(directory / "journal.jsonl"), "one\ntwo\nthree\n");
     journal.clear();
   }
-  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+  EXPECT_EQ(files_below(directory.path()), (std::map<std::string, std::string>{{".lock", ""}}));
 }
 
 TEST(Journal, KeepsItsLinesWhereTheyWereNotMovedElsewhere) {
@@ -78,7 +123,7 @@ TEST(Journal, KeepsItsLinesWhereTheyWereNotMovedElsewhere) {
     journal.append({"one"});
   }
   EXPECT_EQ(files_below(directory.path()),
-            (std::map<std::string, std::string>{{"journal-2-of-8.jsonl", "one\n"}}));
+            (std::map<std::string, std::string>{{".lock", ""}, {"journal-2-of-8.jsonl", "one\n"}}));
   const Journal again(directory.path(), "2-of-8");
   again.append({"two"});
   EXPECT_EQ(bytes_of(directory / "journal-2-of-8.jsonl"), "one\ntwo\n");
@@ -101,19 +146,18 @@ TEST(Journal, IsOfOneRunAtATimeButRunsOfOtherNamesAreWelcome) {
             directory.path().string() + ": another run is writing here");
 }
 
-TEST(Journal, ThoseOfRunsThatWereCutOffCanBeTakenOver) {
+TEST(Journal, IsInUseUntilItsRunEndsAndCanThenBeRemoved) {
   const TemporaryDirectory directory;
-  write_bytes(directory / "journal-1-of-3.jsonl", "one\ntorn");
+  const std::filesystem::path ended = directory / "journal-1-of-3.jsonl";
+  write_bytes(ended, "one\ntorn");
+  std::filesystem::create_directory(directory / ".journal-1-of-3.unfinished");
   const Journal running(directory.path(), "2-of-3");
   running.append({"two"});
-  {
-    const std::vector<Journal> abandoned = abandoned_journals(directory.path());
-    ASSERT_EQ(abandoned.size(), 1U);
-    EXPECT_THAT(journals_in(directory.path()),
-                ElementsAre(directory / "journal-1-of-3.jsonl", directory / "journal-2-of-3.jsonl"));
-    abandoned[0].clear();
-  }
-  EXPECT_THAT(journals_in(directory.path()), ElementsAre(directory / "journal-2-of-3.jsonl"));
+  EXPECT_THAT(journals_in(directory.path()), ElementsAre(ended, running.file()));
+  EXPECT_THAT(journals_in_use(journals_in(directory.path())), ElementsAre(running.file()));
+  remove_journal(ended);
+  EXPECT_THAT(journals_in(directory.path()), ElementsAre(running.file()));
+  EXPECT_FALSE(std::filesystem::exists(directory / ".journal-1-of-3.unfinished"));
 }
 
 TEST(Journal, ALastLineThatWasCutOffIsPassedOver) {
@@ -152,7 +196,7 @@ TEST(Journal, BeginsANewLineWhereOneWasTorn) {
   }
   write_bytes(directory / "journal.jsonl", "torn");
   const Journal journal(directory.path());
-  EXPECT_TRUE(journal.is_empty());
+  EXPECT_EQ(bytes_of(directory / "journal.jsonl"), "");
 }
 
 TEST(Journal, IsNoOtherFileOfTheUsers) {

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -176,6 +177,60 @@ TEST(Workers, OnAnInterruptTheTasksUnderWayAreFinishedAndTheRestLeft) {
     EXPECT_GT(done, 10U);  // the task that interrupted was finished too
     EXPECT_LT(done, 1000U);
   }
+}
+
+TEST(Workers, ATaskUnderWayStopsOnAnInterruptWhereItAsks) {
+  const pid_t parent = getpid();
+  Heard heard;
+  int told = 0;
+  WorkersObserver observer = heard.observer();
+  observer.stopping = [&] { ++told; };
+  const bool complete = run_in_workers(
+      2, 10,
+      [&](std::size_t task) -> std::string {
+        if (task == 0) kill(parent, SIGTERM);
+        while (true) {
+          usleep(1000);
+          stop_if_asked();
+        }
+      },
+      observer);
+  EXPECT_FALSE(complete);
+  EXPECT_EQ(told, 1);
+  EXPECT_TRUE(heard.done.empty());
+  EXPECT_TRUE(heard.failed.empty());
+}
+
+TEST(Workers, ASecondInterruptEndsThemAtOnce) {
+  const pid_t parent = getpid();
+  Heard heard;
+  const bool complete = run_in_workers(
+      2, 10,
+      [&](std::size_t task) -> std::string {
+        while (true) {  // until it is killed
+          if (task == 0) kill(parent, SIGINT);
+          usleep(100'000);
+        }
+      },
+      heard.observer());
+  EXPECT_FALSE(complete);
+  EXPECT_TRUE(heard.done.empty());
+  EXPECT_TRUE(heard.failed.empty());
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);  // no worker is left
+}
+
+TEST(Workers, ATaskThatTakesTooLongIsGivenUpAndTheOthersAreDone) {
+  Heard heard;
+  const bool all = run_in_workers(
+      1, 4,
+      [](std::size_t task) {
+        while (task == 1) pause();
+        return std::string("done");
+      },
+      heard.observer(), std::chrono::seconds(1));
+  EXPECT_TRUE(all);
+  EXPECT_EQ(heard.done.size(), 3U);
+  EXPECT_EQ(heard.failed, (std::map<std::size_t, std::string>{{1, "took longer than 1 s"}}));
 }
 
 TEST(Workers, AnErrorOfTheCallersOwnEndsTheRunWithTheTasksUnderWayFinished) {

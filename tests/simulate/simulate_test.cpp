@@ -5,11 +5,13 @@
 
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/scan/scanner.hpp"
 #include "tests/dataset/small_recipe.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
@@ -85,6 +87,30 @@ TEST(Simulate, TellsWhatWasTriedWhenNoAttemptIsValid) {
                  "A3/1: no valid scene of 3 tubes in 4 attempts: 4 x no rest: the heap never slowed down; "
                  "try fewer tubes, a larger bin or more attempts");
   }
+}
+
+TEST(Simulate, GivesUpAfterAQuarterOfTheAttemptsIfTheTubesFallOutInEach) {
+  Recipe recipe = small_recipe();
+  recipe.attempts = 8;
+  recipe.bin.width = 0.1;
+  recipe.bin.height = 0.01;
+  int attempts = 0;
+  EXPECT_THAT(test::complaint([&] {
+                simulate(recipe, {"A", 12, 1}, [&] { ++attempts; });
+              }),
+              testing::HasSubstr("no valid scene of 12 tubes in 2 attempts: 2 x a tube left the bin; "));
+  EXPECT_EQ(attempts, 2);
+}
+
+TEST(Simulate, IsEndedBetweenAttemptsByWhatItsCallerThrows) {
+  Recipe recipe = small_recipe();
+  recipe.settle.time_limit = 0.1;  // no attempt succeeds
+  int attempts = 0;
+  const auto stop_at_the_third = [&] {
+    if (++attempts == 3) throw std::runtime_error("stopped");
+  };
+  EXPECT_THROW(simulate(recipe, {"A", 3, 1}, stop_at_the_third), std::runtime_error);
+  EXPECT_EQ(attempts, 3);
 }
 
 TEST(Simulate, KnowsOnlyTheRecipesSets) {
