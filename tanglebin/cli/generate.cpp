@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -26,7 +25,7 @@ struct GenerateArguments {
   std::string out;
   ManyCases many;
   std::optional<std::string> shard;
-  std::optional<std::int64_t> seed;
+  std::optional<std::string> seed;
   ProgressStyle progress = ProgressStyle::line;
   bool json = false;
 };
@@ -34,7 +33,7 @@ struct GenerateArguments {
 Recipe recipe_of(const GenerateArguments& arguments) {
   Recipe recipe = read_input(arguments.recipe, [](auto&&... from) { return read_recipe(from...); });
   if (arguments.seed) {
-    recipe.seed = static_cast<std::uint64_t>(*arguments.seed);
+    recipe.seed = parse_seed(*arguments.seed, "--seed");
     validate(recipe);
   }
   return recipe;
@@ -77,8 +76,8 @@ void add_generate(CLI::App& app) {
   command->add_option(
       "--shard", arguments->shard,
       "Generate part I of N of the cases (I/N) [default: from a Slurm job array or Kubernetes indexed job]");
-  command->add_option("--seed", arguments->seed, "Seed, instead of the recipe's")
-      ->check(CLI::NonNegativeNumber);
+  command->add_option("--seed", arguments->seed,
+                      "Seed, instead of the recipe's: decimal, or hexadecimal after 0x");
   add_progress_option(*command, arguments->progress);
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(

@@ -2,14 +2,19 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/usage.hpp"
 
 namespace {
 
@@ -35,8 +40,12 @@ int run(int argc, char** argv) {
   tanglebin::cli::add_experiment(app);
   tanglebin::cli::add_report(app);
   tanglebin::cli::add_learn(app);
+  app.failure_message(tanglebin::cli::usage_message);
   try {
-    app.parse(argc, argv);  // runs the chosen command's callback
+    std::vector<std::string> arguments = tanglebin::cli::with_current_names({argv + 1, argv + argc});
+    tanglebin::cli::expect_known_names(app, arguments);
+    std::ranges::reverse(arguments);  // CLI11 takes them from the end
+    app.parse(std::move(arguments));  // runs the chosen command's callback
   } catch (const CLI::ParseError& error) {
     // A RuntimeError carries the exit status that a command chose; anything else is wrong usage.
     const int status = app.exit(error);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/many_cases.hpp"
 #include "tanglebin/cli/print.hpp"
@@ -65,6 +66,7 @@ void print_text(const VerifyArguments& arguments, const VerifySummary& summary, 
 }
 
 void verify_and_report(const VerifyArguments& arguments) {
+  expect_dataset(arguments.dataset);
   VerifySummary summary = verify(arguments);
   std::size_t repaired = 0;
   if (arguments.repair && !summary.faults.empty() && !summary.was_stopped) {

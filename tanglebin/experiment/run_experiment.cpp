@@ -68,6 +68,7 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
     summary.failed.push_back({missing[failure.task], failure.reason});
     observer.ended({missing[failure.task], 0, 0, failure.reason}, summary.progress);
   };
+  observer.begun(missing);
   try {
     run_in_workers(jobs, missing.size(),
                    [&](std::size_t task) { return run_case(dataset, settings, missing[task]); },
