@@ -180,7 +180,7 @@ void model_cloud(const ModelArguments& arguments) {
     write_output(*arguments.tubes, tubes.str());
   }
   if (arguments.debug_directory) write_pictures(cloud, known, settings, arguments);
-  if (arguments.out != standard_stream) print_summary(arguments, known, model);
+  if (!take_standard_output(outputs(arguments))) print_summary(arguments, known, model);
 }
 
 }  // namespace

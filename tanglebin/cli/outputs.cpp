@@ -42,6 +42,10 @@ void expect_outputs(const std::vector<Output>& outputs) {
   }
 }
 
+bool take_standard_output(const std::vector<Output>& outputs) {
+  return std::ranges::find(outputs, standard_stream, &Output::file) != outputs.end();
+}
+
 bool is_pcd(const std::string& file) {
   return extension_of(file) == ".pcd";
 }

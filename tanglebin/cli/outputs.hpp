@@ -18,6 +18,9 @@ struct Output {
 /// two outputs are the same. Standard output, devices and pipes need no extension.
 void expect_outputs(const std::vector<Output>& outputs);
 
+/// Whether one of them is standard output, which then has room for nothing else.
+bool take_standard_output(const std::vector<Output>& outputs);
+
 /// The extensions of clouds.
 inline const std::vector<std::string_view> cloud_extensions{".ply", ".pcd"};
 

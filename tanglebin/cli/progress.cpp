@@ -23,11 +23,11 @@ std::optional<double> RemainingTime::seconds(double elapsed) const {
 bool LogSchedule::is_due(double elapsed, double share) {
   constexpr double shortest = 30;
   constexpr double longest = 600;
-  constexpr double tenth = 0.1;
   const double pause = elapsed - last_time_;
-  if (pause < shortest || (pause < longest && share - last_share_ < tenth)) return false;
+  const int tenths = static_cast<int>(10 * share);
+  if (pause < shortest || (pause < longest && tenths == last_tenths_)) return false;
   last_time_ = elapsed;
-  last_share_ = share;
+  last_tenths_ = tenths;
   return true;
 }
 

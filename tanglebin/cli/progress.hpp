@@ -38,7 +38,7 @@ public:
 
 private:
   double last_time_ = 0;
-  double last_share_ = 0;
+  int last_tenths_ = 0;
 };
 
 /// Cases that have ended in this run.

@@ -126,12 +126,13 @@ std::vector<Output> outputs(const ScanArguments& arguments) {
 
 void scan_configuration(const ScanArguments& arguments) {
   expect_outputs(outputs(arguments));
-  const std::vector<Tube> tubes =
-      read_input(arguments.configuration, [](auto&&... from) { return read_configuration(from...); });
   const Scanner scanner = scanner_with(arguments.scanner, arguments.parameters, "--parameter");
   const Bin bin = bin_preset(arguments.bin);
   validate(scanner.camera, bin);
-  const Scan view = scan(tubes, bin, scanner.camera, scanner.sensor, seed_of(arguments));
+  const std::uint64_t seed = seed_of(arguments);
+  const std::vector<Tube> tubes =
+      read_input(arguments.configuration, [](auto&&... from) { return read_configuration(from...); });
+  const Scan view = scan(tubes, bin, scanner.camera, scanner.sensor, seed);
   if (!tubes.empty() && !shows_a_tube(view)) warn_of_no_tube(scanner.camera, tubes);
   write_output(arguments.out, cloud_bytes(arguments, view, largest_id(tubes)));
   if (arguments.depth) {
@@ -143,7 +144,7 @@ void scan_configuration(const ScanArguments& arguments) {
     const Picture picture = picture_of_scan(scan(tubes, bin, scanner.camera), view, arguments.configuration);
     write_output(*arguments.picture, color_png(picture.width, picture.height, picture.pixels));
   }
-  if (arguments.out != standard_stream) print_summary(arguments, view, tubes);
+  if (!take_standard_output(outputs(arguments))) print_summary(arguments, view, tubes);
 }
 
 }  // namespace

@@ -91,6 +91,13 @@ TEST_F(ModelCommand, ReadsAPipeAndWritesOne) {
   EXPECT_EQ(read_cloud(in, "output").points, scan_.points);
 }
 
+TEST_F(ModelCommand, PrintsNothingBesideTubesOnStandardOutput) {
+  const ProgramResult run = model("scan.ply", "--modelled-tubes -");
+  ASSERT_EQ(run.status, 0) << run.err;
+  std::istringstream in(run.out);
+  EXPECT_EQ(read_configuration(in, "output").size(), 2U);
+}
+
 TEST_F(ModelCommand, KeepsAnOrganizedCloudOrganizedInPcdAndDropsItsHolesInPly) {
   const KnownScene scene = test::paper_scene();
   const PointCloud organized =
