@@ -24,6 +24,7 @@ std::string text_of(const std::set<int>& numbers) {
     ranges.back().last = number;
   }
   std::vector<std::string> texts;
+  texts.reserve(ranges.size());
   for (const auto& [first, last] : ranges)
     texts.push_back(first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last));
   return fmt::format("{}", fmt::join(texts, ","));
@@ -38,6 +39,7 @@ std::string summary_of(const std::vector<CaseId>& cases) {
     numbers.insert(id.number);
   }
   std::vector<std::string> texts;
+  texts.reserve(sets.size());
   for (const auto& [set, numbers] : sets)
     texts.push_back(fmt::format("set {} with {} tubes and cases {}", set, text_of(numbers.first),
                                 text_of(numbers.second)));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -67,7 +68,8 @@ void ProgressReport::show_line(const RunProgress& progress) {
 
 void ProgressReport::log(const RunProgress& progress) {
   const double elapsed = seconds_since(start_);
-  const double share = static_cast<double>(ended(progress)) / static_cast<double>(progress.wanted);
+  const double share =
+      static_cast<double>(ended(progress)) / static_cast<double>(std::max<std::size_t>(1, progress.wanted));
   if (!schedule_.is_due(elapsed, share)) return;
   print_error("tanglebin: {}\n", progress_text(progress, remaining_, elapsed));
 }

@@ -38,6 +38,7 @@ std::string_view name_of_option(std::string_view argument) {
 
 std::vector<std::string_view> names_of(const std::vector<const CLI::App*>& commands) {
   std::vector<std::string_view> names;
+  names.reserve(commands.size());
   for (const CLI::App* command : commands) names.emplace_back(command->get_name());
   return names;
 }
