@@ -29,6 +29,13 @@ std::optional<std::pair<int, int>> parse_pair(std::string_view text, char separa
   return std::pair{*first, *second};
 }
 
+std::optional<Range> parse_range(std::string_view text) {
+  if (const auto one = parse_positive(text)) return Range{*one, *one};
+  const auto two = parse_pair(text, '-');
+  if (!two || two->first > two->second) return std::nullopt;
+  return Range{two->first, two->second};
+}
+
 // Ratios are counted in billionths, so that 0.1 plus two steps of 0.1 is exactly 0.3.
 constexpr double billion = 1e9;
 
@@ -55,23 +62,44 @@ void write_output(const std::string& file, std::string_view bytes) {
   std::fwrite(bytes.data(), 1, bytes.size(), stdout);  // main() checks that it was written
 }
 
-Range parse_range(std::string_view text, const std::string& option) {
-  if (const auto one = parse_positive(text)) return {*one, *one};
-  const auto two = parse_pair(text, '-');
-  if (!two || two->first > two->second) {
-    throw InputError({"", 0, option}, excerpt(text), "a number or a range such as 1-20");
-  }
-  return {two->first, two->second};
+void expect_dataset(const std::string& directory) {
+  const std::filesystem::path path(directory);
+  if (std::filesystem::exists(path / "recipe.toml")) return;
+  const std::string found = !std::filesystem::exists(path)         ? "nothing"
+                            : !std::filesystem::is_directory(path) ? "a file"
+                                                                   : "no recipe.toml in it";
+  throw InputError({directory, 0, ""}, found, "the directory of a dataset from `tanglebin generate`");
 }
 
-std::uint64_t parse_hexadecimal(std::string_view text, const std::string& option) {
-  std::uint64_t value = 0;
-  constexpr int hexadecimal = 16;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, hexadecimal);
-  if (error != std::errc{} || end != text.data() + text.size()) {
-    throw InputError({"", 0, option}, excerpt(text), "a hexadecimal number of at most 16 digits");
+std::vector<Range> parse_numbers(std::string_view text, const std::string& option) {
+  std::vector<Range> ranges;
+  for (const std::string_view part : split(text, ',')) {
+    const std::optional<Range> range = parse_range(part);
+    if (!range)
+      throw InputError({"", 0, option}, excerpt(part), "numbers from 1, and ranges, such as 1,5,10-20");
+    ranges.push_back(*range);
   }
-  return value;
+  return ranges;
+}
+
+bool contains(const std::vector<Range>& ranges, int number) {
+  return std::ranges::any_of(
+      ranges, [number](const Range& range) { return range.first <= number && number <= range.last; });
+}
+
+std::uint64_t parse_seed(std::string_view text, const std::string& option) {
+  constexpr int decimal = 10;
+  constexpr int hexadecimal = 16;
+  const bool is_hexadecimal = text.starts_with("0x");
+  const std::string_view digits = is_hexadecimal ? text.substr(2) : text;
+  const char* const last = digits.data() + digits.size();
+  std::uint64_t seed = 0;
+  const auto [end, error] =
+      std::from_chars(digits.data(), last, seed, is_hexadecimal ? hexadecimal : decimal);
+  if (error != std::errc{} || end != last)
+    throw InputError({"", 0, option}, excerpt(text),
+                     "a seed of at most 64 bits: decimal, or hexadecimal after 0x");
+  return seed;
 }
 
 std::vector<double> parse_lengths(std::string_view text, const std::string& option) {

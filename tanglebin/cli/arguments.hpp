@@ -27,18 +27,25 @@ auto read_input(const std::string& file, const Read& read) {
 /// Writes the bytes to the file, completely or not at all, or to standard output if `file` is "-".
 void write_output(const std::string& file, std::string_view bytes);
 
+/// Throws InputError unless the directory has a dataset, that is a recipe.toml.
+void expect_dataset(const std::string& directory);
+
 /// A range of whole numbers, both ends included.
 struct Range {
   int first;
   int last;
 };
 
-/// Parses "3" or "3-7". Throws InputError naming `option` for anything else.
-Range parse_range(std::string_view text, const std::string& option);
+/// Parses whole numbers from 1, and ranges of them: "3", "1-20", "1,5,10-20". Throws InputError naming
+/// `option` for anything else.
+std::vector<Range> parse_numbers(std::string_view text, const std::string& option);
 
-/// Parses a hexadecimal number of at most 64 bits: "1f" is 31. Throws InputError naming `option` for anything
-/// else.
-std::uint64_t parse_hexadecimal(std::string_view text, const std::string& option);
+/// Whether a number is in one of the ranges.
+bool contains(const std::vector<Range>& ranges, int number);
+
+/// Parses a seed of at most 64 bits, decimal or hexadecimal: "31" or "0x1f". Throws InputError naming
+/// `option` for anything else.
+std::uint64_t parse_seed(std::string_view text, const std::string& option);
 
 /// Parses positive numbers: "0.4" or "0.4,0.5". Throws InputError naming `option` for anything else.
 std::vector<double> parse_lengths(std::string_view text, const std::string& option);

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,11 +12,11 @@
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/exit_status.hpp"
 #include "tanglebin/cli/many_cases.hpp"
+#include "tanglebin/cli/model_options.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/experiment/run_experiment.hpp"
 #include "tanglebin/experiment/summary.hpp"
-#include "tanglebin/model/parameters.hpp"
 #include "tanglebin/report/write_pictures.hpp"
 
 namespace tanglebin::cli {
@@ -31,8 +30,7 @@ struct ExperimentArguments {
   std::vector<std::string> methods = {name_of(Method::axis)};
   std::string ratios = "0.1:1.0:0.1";
   ManyCases many;
-  std::int64_t seed = 0;
-  std::vector<std::string> parameters;
+  ModelOptions model;
   ProgressStyle progress = ProgressStyle::line;
   bool json = false;
 };
@@ -132,10 +130,9 @@ void print_text(const ExperimentArguments& arguments, const ExperimentSummary& s
 
 void experiment(const ExperimentArguments& arguments) {
   ExperimentSettings settings{.methods = methods_of(arguments),
-                              .ratios = parse_ratios(arguments.ratios, "--downsample")};
-  settings.model.seed = static_cast<std::uint64_t>(arguments.seed);
-  for (const std::string& assignment : arguments.parameters)
-    set_parameter(settings.model, assignment, "--parameter");
+                              .ratios = parse_ratios(arguments.ratios, "--downsample"),
+                              .model = settings_of(arguments.model)};
+  expect_dataset(arguments.dataset);
   const Dataset dataset = read_dataset(arguments.dataset);
   const std::vector<CaseId> wanted = chosen(arguments.many, cases(dataset), arguments.dataset);
   const Clock::time_point start = Clock::now();
@@ -167,17 +164,16 @@ void add_experiment(CLI::App& app) {
       ->required();
   command->add_option("--out", arguments->out, "Directory of the results; resumes an interrupted run")
       ->required();
-  command->add_option("--method", arguments->methods, "Method: axis or paper; repeat the option for both")
-      ->capture_default_str();
-  command->add_option("--downsample", arguments->ratios, "Downsampling ratios: 0.1,0.3 or first:last:step")
+  command->add_option("--method", arguments->methods, "Methods: axis, paper or axis,paper")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str()
+      ->option_text("NAMES [axis]");
+  command
+      ->add_option("--downsample", arguments->ratios, "Downsampling ratios: 0.3, 0.1,0.3 or first:last:step")
       ->capture_default_str();
   add_options(*command, arguments->many);
-  command->add_option("--seed", arguments->seed, "Seed of the downsampling")
-      ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
-  command->add_option(
-      "--parameter", arguments->parameters,
-      "Set a parameter of a method: NAME=VALUE, such as axis.fit.tolerance=0.1 (docs/algorithm.md)");
+  add_options(*command, arguments->model);
   add_progress_option(*command, arguments->progress);
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(

@@ -61,7 +61,8 @@ void report_fill(const FillReport& report, const FillSummary& summary, double se
     print_text(report, summary, seconds);
   }
   for (const FailedCase& failed : summary.failed) {
-    print_error("tanglebin: {}: failed: {} (seed {:016x})\n", name_of(failed.id), failed.reason, failed.seed);
+    print_error("tanglebin: {}: failed: {} (seed {:#018x})\n", name_of(failed.id), failed.reason,
+                failed.seed);
   }
   if (summary.was_stopped()) throw CLI::RuntimeError(exit_interrupted());
   if (!summary.failed.empty()) throw CLI::RuntimeError(exit_cases_failed);

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -28,7 +27,7 @@ struct GenerateArguments {
   std::string out;
   ManyCases many;
   std::optional<std::string> shard;
-  std::optional<std::int64_t> seed;
+  std::optional<std::string> seed;
   double case_limit = std::chrono::duration<double>(default_case_limit).count();  ///< s
   ProgressStyle progress = ProgressStyle::line;
   bool json = false;
@@ -37,7 +36,7 @@ struct GenerateArguments {
 Recipe recipe_of(const GenerateArguments& arguments) {
   Recipe recipe = read_input(arguments.recipe, [](auto&&... from) { return read_recipe(from...); });
   if (arguments.seed) {
-    recipe.seed = static_cast<std::uint64_t>(*arguments.seed);
+    recipe.seed = parse_seed(*arguments.seed, "--seed");
     validate(recipe);
   }
   return recipe;
@@ -110,8 +109,8 @@ void add_generate(CLI::App& app) {
   command->add_option("--case-limit", arguments->case_limit, "Seconds after which a case has failed")
       ->capture_default_str()
       ->check(CLI::Range(1e-3, 1e9));
-  command->add_option("--seed", arguments->seed, "Seed, instead of the recipe's")
-      ->check(CLI::NonNegativeNumber);
+  command->add_option("--seed", arguments->seed,
+                      "Seed, instead of the recipe's: decimal, or hexadecimal after 0x");
   add_progress_option(*command, arguments->progress);
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/experiment/learn_links.hpp"
@@ -48,6 +49,7 @@ Count count(const std::vector<EndExample>& ends, LinkKind kind) {
 }
 
 void learn(const LearnArguments& arguments) {
+  expect_dataset(arguments.dataset);
   const std::vector<EndExample> examples = examples_of(read_dataset(arguments.dataset));
   const LinkWeights weights = learn_weights(examples);
   nlohmann::ordered_json json;

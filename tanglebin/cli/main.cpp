@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -11,11 +12,14 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/exit_status.hpp"
 #include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/usage.hpp"
 
 namespace {
 
@@ -38,11 +42,14 @@ int run(int argc, char** argv) {
   add_report(app);
   add_learn(app);
   app.footer(
-      "Exit status: 0 done, 2 bad input, 3 cases failed, 4 faults found, 5 the system refused (disk full, "
-      "…), "
-      "64 wrong usage,\n130 and 143 interrupted, 1 an error of the program itself.");
+      "Exit status: 0 done, 2 bad input, 3 cases failed, 4 faults found, 5 the system refused (disk full, …),\n"
+      "64 wrong usage, 130 and 143 interrupted, 1 an error of the program itself.");
+  app.failure_message(usage_message);
   try {
-    app.parse(argc, argv);  // runs the chosen command's callback
+    std::vector<std::string> arguments = with_current_names({argv + 1, argv + argc});
+    expect_known_names(app, arguments);
+    std::ranges::reverse(arguments);  // CLI11 takes them from the end
+    app.parse(std::move(arguments));  // runs the chosen command's callback
   } catch (const CLI::ParseError& error) {
     // A RuntimeError carries the exit status that a command chose; anything else is wrong usage.
     std::stringstream complaints;

@@ -17,7 +17,7 @@ namespace tanglebin::cli {
 struct ManyCases {
   int jobs = 1;
   std::vector<std::string> sets;
-  std::vector<int> tubes;
+  std::optional<std::string> tubes;
   std::optional<std::string> cases;
 };
 
@@ -27,7 +27,8 @@ void add_jobs_option(CLI::App& command, int& jobs);
 /// Adds --jobs, --set, --tubes and --cases, which fill `many`.
 void add_options(CLI::App& command, ManyCases& many);
 
-/// The cases that match --set, --tubes and --cases. Throws InputError naming `source` if there are none.
+/// The cases that match --set, --tubes and --cases. Throws InputError naming `source`, with the cases that
+/// there are, if none does.
 std::vector<CaseId> chosen(const ManyCases& many, std::vector<CaseId> cases, const std::string& source);
 
 }  // namespace tanglebin::cli

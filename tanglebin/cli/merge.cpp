@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/fill_report.hpp"
 #include "tanglebin/cli/many_cases.hpp"
@@ -21,6 +22,7 @@ struct MergeArguments {
 };
 
 void merge(const MergeArguments& arguments) {
+  for (const std::string& part : arguments.parts) expect_dataset(part);
   const auto start = std::chrono::steady_clock::now();
   const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());
   const FillSummary summary = [&] {

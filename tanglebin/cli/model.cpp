@@ -12,6 +12,8 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/model_options.hpp"
+#include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
 #include "tanglebin/geometry/labels.hpp"
@@ -25,7 +27,6 @@
 #include "tanglebin/model/axis/radius.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
-#include "tanglebin/model/parameters.hpp"
 #include "tanglebin/report/pictures_of_steps.hpp"
 
 namespace tanglebin::cli {
@@ -36,14 +37,13 @@ struct ModelArguments {
   std::string out;
   std::optional<std::string> tubes;
   std::string method = name_of(Method::axis);
-  double downsample = 1;
-  std::int64_t seed = 0;
+  std::string ratio = "1";
+  ModelOptions model;
   std::string bin = "paper";
   std::string scanner = "paper";
   std::string radius = fmt::format("{}", TubeKind().radius);
   std::string length = fmt::format("{}", TubeKind().length());
   std::vector<std::string> trees;
-  std::vector<std::string> parameters;
   std::optional<std::string> debug_directory;
   bool json = false;
 };
@@ -94,10 +94,9 @@ PointCloud labelled_cloud(const PointCloud& cloud, const Model& model, bool keep
   return labelled;
 }
 
-// PLY, or PCD if the file name ends in .pcd.
 std::string cloud_bytes(const PointCloud& cloud, const Model& model, const std::string& file) {
   std::ostringstream out;
-  if (std::filesystem::path(file).extension() == ".pcd") {
+  if (is_pcd(file)) {
     write_pcd(out, labelled_cloud(cloud, model, true));
   } else {
     write_ply(out, labelled_cloud(cloud, model, false));
@@ -125,12 +124,17 @@ void print_summary(const ModelArguments& arguments, const KnownScene& known, con
   }
 }
 
+double ratio_of(const ModelArguments& arguments) {
+  const std::vector<double> ratios = parse_ratios(arguments.ratio, "--downsample");
+  if (ratios.size() != 1)
+    throw InputError({"", 0, "--downsample"}, fmt::format("{} ratios", ratios.size()), "one");
+  return ratios.front();
+}
+
 ModelSettings model_settings(const ModelArguments& arguments) {
-  ModelSettings settings{.method = method_named(arguments.method),
-                         .ratio = arguments.downsample,
-                         .seed = static_cast<std::uint64_t>(arguments.seed)};
-  for (const std::string& assignment : arguments.parameters)
-    set_parameter(settings, assignment, "--parameter");
+  ModelSettings settings = settings_of(arguments.model);
+  settings.method = method_named(arguments.method);
+  settings.ratio = ratio_of(arguments);
   return settings;
 }
 
@@ -156,7 +160,14 @@ void write_pictures(const PointCloud& cloud, const KnownScene& known, const Mode
   }
 }
 
+std::vector<Output> outputs(const ModelArguments& arguments) {
+  std::vector<Output> files{{"--out", arguments.out, cloud_extensions}};
+  if (arguments.tubes) files.push_back({"--modelled-tubes", *arguments.tubes, {".txt"}});
+  return files;
+}
+
 void model_cloud(const ModelArguments& arguments) {
+  expect_outputs(outputs(arguments));
   const ModelSettings settings = model_settings(arguments);
   const PointCloud cloud = read_input(arguments.cloud, [](auto&&... from) { return read_cloud(from...); });
   const KnownScene known = known_scene(arguments, cloud);
@@ -169,7 +180,7 @@ void model_cloud(const ModelArguments& arguments) {
     write_output(*arguments.tubes, tubes.str());
   }
   if (arguments.debug_directory) write_pictures(cloud, known, settings, arguments);
-  if (arguments.out != standard_stream) print_summary(arguments, known, model);
+  if (!take_standard_output(outputs(arguments))) print_summary(arguments, known, model);
 }
 
 }  // namespace
@@ -182,15 +193,14 @@ void add_model(CLI::App& app) {
       ->add_option("--out", arguments->out,
                    "The same cloud with labels: .ply or .pcd; - for PLY on standard output")
       ->required();
-  command->add_option("--tubes", arguments->tubes, "Also write the tubes (text, docs/formats.md)");
+  command->add_option("--modelled-tubes", arguments->tubes,
+                      "Also write the tubes: .txt (docs/formats.md); - for standard output");
   command->add_option("--method", arguments->method, "Method: axis or paper")->capture_default_str();
   command
-      ->add_option("--downsample", arguments->downsample,
-                   "Downsampling ratio; points left out of the modelling are labelled too")
+      ->add_option("--downsample", arguments->ratio,
+                   "Downsampling ratio: 0.3; points left out of the modelling are labelled too")
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "Seed of the downsampling")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  add_options(*command, arguments->model);
   command->add_option("--bin", arguments->bin, "Bin: paper or published")->capture_default_str();
   command
       ->add_option("--scanner", arguments->scanner, "Camera: paper, gaussian, zivid-one-plus-l or kinect-v1")
@@ -208,15 +218,13 @@ void add_model(CLI::App& app) {
           "--tree", arguments->trees,
           "Segments of branching tubes, as pairs of nodes with a length, m: 1-2:0.3,1-3:0.1,1-4:0.1; repeat "
           "the option for each radius (method axis)")
+      ->allow_extra_args(false)
       ->excludes(length);
-  command->add_option(
-      "--parameter", arguments->parameters,
-      "Set a parameter of the method: NAME=VALUE, such as axis.fit.tolerance=0.1 (docs/algorithm.md)");
   command->add_option("--debug-dir", arguments->debug_directory,
                       "Directory for pictures of the result of each step");
   command->add_flag("--json", arguments->json, "Print the steps as JSON");
   command->footer(
-      "Example:\n  tanglebin model dataset/A10/plys/1.ply --out labelled.ply --tubes tubes.txt\n"
+      "Example:\n  tanglebin model dataset/A10/plys/1.ply --out labelled.ply --modelled-tubes tubes.txt\n"
       "Ignores the cloud's own labels and colours. Methods: docs/algorithm.md.");
   command->callback([arguments] { model_cloud(*arguments); });
 }

@@ -14,7 +14,9 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/cli/arguments.hpp"
+#include "tanglebin/cli/checks.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/read_cloud.hpp"
@@ -75,6 +77,7 @@ Picture draw_file(const std::string& file, const Options& options) {
 }
 
 void run(const Options& options) {
+  expect_outputs({{"--out", options.out, {".png"}}});
   const Picture picture =
       options.input == "-" ? draw(std::cin, "standard input", options) : draw_file(options.input, options);
   write_output(options.out, color_png(picture.width, picture.height, picture.pixels));
@@ -91,13 +94,19 @@ void add_preview(CLI::App& app) {
       ->required();
   command->add_option("--out", options->out, "Picture to write (.png); - for standard output")->required();
   command->add_option("--azimuth-deg", options->azimuth_deg, "Direction of the viewer, from +x towards +y")
+      ->check(finite_number())
       ->capture_default_str();
   command
       ->add_option("--elevation-deg", options->elevation_deg,
                    "Elevation of the viewer above the horizontal, -90 to 90")
+      ->check(finite_number())
       ->capture_default_str();
-  command->add_option("--width", options->width, "Width of the picture, pixels")->capture_default_str();
-  command->add_option("--height", options->height, "Height of the picture, pixels")->capture_default_str();
+  command->add_option("--width", options->width, "Width of the picture, pixels")
+      ->check(whole_number(1, largest_picture))
+      ->capture_default_str();
+  command->add_option("--height", options->height, "Height of the picture, pixels")
+      ->check(whole_number(1, largest_picture))
+      ->capture_default_str();
   command->add_option("--bin", options->bin, "Bin around a configuration: paper or published")
       ->capture_default_str();
   command->footer(example);

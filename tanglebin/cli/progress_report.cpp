@@ -1,25 +1,18 @@
 #include "tanglebin/cli/progress_report.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "tanglebin/base/text.hpp"
 #include "tanglebin/cli/print.hpp"
 
 namespace tanglebin::cli {
 namespace {
-
-std::size_t done(const RunProgress& progress) {
-  return progress.made + progress.failed;
-}
-
-std::size_t remaining(const RunProgress& progress) {
-  return progress.wanted - progress.found - done(progress);
-}
 
 // Flushes, so that a program at the other end of a pipe gets the event at once.
 void print_event(const nlohmann::ordered_json& event) {
@@ -30,12 +23,16 @@ void print_event(const nlohmann::ordered_json& event) {
 }  // namespace
 
 void add_progress_option(CLI::App& command, ProgressStyle& style) {
-  const std::map<std::string, ProgressStyle> styles{{"line", ProgressStyle::line},
-                                                    {"json", ProgressStyle::json}};
+  const auto set_style = [&style](const std::string& name) {
+    if (name != "line" && name != "json")
+      throw CLI::ValidationError("--progress", fmt::format("found {}, expected line or json", excerpt(name)));
+    style = name == "json" ? ProgressStyle::json : ProgressStyle::line;
+  };
   command
-      .add_option("--progress", style,
-                  "line: one line on the terminal; json: a line of JSON on standard output for each event")
-      ->transform(CLI::CheckedTransformer(styles))
+      .add_option_function<std::string>("--progress", set_style,
+                                        "line: on standard error, one line on a terminal or now and then one "
+                                        "in a log; json: a line of JSON "
+                                        "on standard output for each event")
       ->option_text("line|json [line]");
 }
 
@@ -44,30 +41,29 @@ ProgressReport::~ProgressReport() {
 }
 
 RunObserver ProgressReport::observer() {
-  RunObserver observer{.stopping = [this] { print_stopping(); }};
-  if (style_ == ProgressStyle::json) {
-    observer.progress = [this](const RunProgress& progress) { print_progress(progress); };
-    observer.ended = [](const CaseEvent& event, const RunProgress&) { print_end_of_case(event); };
-    return observer;
-  }
-  if (is_terminal_) observer.progress = [this](const RunProgress& progress) { show_line(progress); };
-  return observer;
+  return {.begun = [this](const std::vector<CaseId>& cases) { remaining_.begin(cases); },
+          .progress = [this](const RunProgress& progress) { show(progress); },
+          .ended = [this](const CaseEvent& event, const RunProgress&) { end(event); },
+          .stopping = [this] { print_stopping(); }};
 }
 
-double ProgressReport::rate(const RunProgress& progress) const {
-  return static_cast<double>(done(progress)) / seconds_since(start_);
+void ProgressReport::show(const RunProgress& progress) {
+  if (style_ == ProgressStyle::json) {
+    print_progress(progress);
+  } else if (is_terminal_) {
+    show_line(progress);
+  } else {
+    log(progress);
+  }
+}
+
+void ProgressReport::end(const CaseEvent& event) {
+  remaining_.end(event.id);
+  if (style_ == ProgressStyle::json) print_end_of_case(event);
 }
 
 void ProgressReport::show_line(const RunProgress& progress) {
-  std::string line = fmt::format("\r{} of {} cases", progress.found + done(progress), progress.wanted);
-  if (done(progress) > 0) {
-    const double pace = rate(progress);
-    line += fmt::format(", {:.2g}/s, {} left", pace,
-                        duration_text(static_cast<double>(remaining(progress)) / pace));
-  }
-  if (progress.rejected > 0) line += fmt::format(", {} attempts rejected", progress.rejected);
-  if (progress.failed > 0) line += fmt::format(", {} cases failed", progress.failed);
-  print_error("{} \x1b[K", line);
+  print_error("\r{} \x1b[K", progress_text(progress, remaining_, seconds_since(start_)));
   is_shown_ = true;
 }
 
@@ -76,16 +72,27 @@ void ProgressReport::print_stopping() const {
   print_error("tanglebin: stopping after the cases in progress; once more to end at once\n");
 }
 
+void ProgressReport::log(const RunProgress& progress) {
+  const double elapsed = seconds_since(start_);
+  const double share =
+      static_cast<double>(ended(progress)) / static_cast<double>(std::max<std::size_t>(1, progress.wanted));
+  if (!schedule_.is_due(elapsed, share)) return;
+  print_error("tanglebin: {}\n", progress_text(progress, remaining_, elapsed));
+}
+
 void ProgressReport::print_progress(const RunProgress& progress) {
   if (Clock::now() - last_printed_ < std::chrono::seconds(1)) return;
   last_printed_ = Clock::now();
-  nlohmann::ordered_json event{{"event", "progress"},       {"wanted", progress.wanted},
-                               {"found", progress.found},   {"made", progress.made},
-                               {"failed", progress.failed}, {"rejected", progress.rejected},
-                               {"rate", rate(progress)},    {"remaining_seconds", nullptr}};
-  if (done(progress) > 0) {
-    event["remaining_seconds"] = static_cast<double>(remaining(progress)) / rate(progress);
-  }
+  const double elapsed = seconds_since(start_);
+  nlohmann::ordered_json event{{"event", "progress"},
+                               {"wanted", progress.wanted},
+                               {"found", progress.found},
+                               {"made", progress.made},
+                               {"failed", progress.failed},
+                               {"rejected", progress.rejected},
+                               {"rate", rate(progress, elapsed)},
+                               {"remaining_seconds", nullptr}};
+  if (const auto seconds = remaining_.seconds(elapsed)) event["remaining_seconds"] = *seconds;
   print_event(event);
 }
 
@@ -101,15 +108,6 @@ void ProgressReport::print_end_of_case(const CaseEvent& event) {
     json["reason"] = event.failure;
   }
   print_event(json);
-}
-
-std::string duration_text(double seconds) {
-  constexpr long in_minute = 60;
-  constexpr long in_hour = 3600;
-  const long whole = std::lround(seconds);
-  if (whole < in_minute) return fmt::format("{} s", whole);
-  if (whole < in_hour) return fmt::format("{} min {:02} s", whole / in_minute, whole % in_minute);
-  return fmt::format("{} h {:02} min", whole / in_hour, whole % in_hour / in_minute);
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {

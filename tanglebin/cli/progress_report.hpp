@@ -3,8 +3,8 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <string>
 
+#include "tanglebin/cli/progress.hpp"
 #include "tanglebin/dataset/run_observer.hpp"
 
 namespace CLI {
@@ -15,7 +15,7 @@ namespace tanglebin::cli {
 
 /// How a command over many cases reports progress.
 enum class ProgressStyle {
-  line,  ///< a line on standard error that is updated in place; only on a terminal
+  line,  ///< on standard error: a line updated in place on a terminal, else a line now and then
   json,  ///< a line of JSON for each event on standard output (docs/formats.md)
 };
 
@@ -36,9 +36,11 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  double rate(const RunProgress& progress) const;
+  void show(const RunProgress& progress);
+  void end(const CaseEvent& event);
   void show_line(const RunProgress& progress);
   void print_stopping() const;
+  void log(const RunProgress& progress);
   void print_progress(const RunProgress& progress);
   static void print_end_of_case(const CaseEvent& event);
 
@@ -47,10 +49,9 @@ private:
   bool is_shown_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_printed_{};
+  RemainingTime remaining_;
+  LogSchedule schedule_;
 };
-
-/// A readable duration: "45 s", "12 min 30 s", "3 h 05 min".
-std::string duration_text(double seconds);
 
 /// Wall-clock time since `start`, s.
 double seconds_since(std::chrono::steady_clock::time_point start);

@@ -4,6 +4,7 @@
 
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/report/page.hpp"
 #include "tanglebin/report/results.hpp"
 
@@ -16,6 +17,7 @@ struct ReportArguments {
 };
 
 void write_report(const ReportArguments& arguments) {
+  expect_outputs({{"--out", arguments.out, {".html"}}});
   write_output(arguments.out, report_page(read_results_directory(arguments.results)));
 }
 

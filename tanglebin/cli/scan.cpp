@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,9 +13,11 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/geometry/view_of_bin.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/pcd.hpp"
@@ -32,7 +35,7 @@ struct ScanArguments {
   std::string out;
   std::string bin = "paper";
   std::string scanner = "paper";
-  std::vector<std::string> settings;
+  std::vector<std::string> parameters;
   std::string seed = "0";
   bool with_bin = false;
   std::optional<std::string> depth;
@@ -48,11 +51,27 @@ int largest_id(const std::vector<Tube>& tubes) {
   return largest;
 }
 
-// PLY, or an organized PCD if the file name ends in .pcd.
+bool shows_a_tube(const Scan& view) {
+  return std::ranges::any_of(view.pixels, [](const Pixel& pixel) { return pixel.label > bin_label; });
+}
+
+void warn_of_no_tube(const Camera& camera, const std::vector<Tube>& tubes) {
+  Eigen::AlignedBox3d box;
+  for (const Tube& tube : tubes) box.extend(bounds(tube));
+  const auto text = [](const Eigen::Vector3d& point) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", point.x(), point.y(), point.z());
+  };
+  print_error(
+      "tanglebin: warning: the scan has no point of a tube; the tubes are between {} and {} m, the camera at "
+      "{}\n",
+      text(box.min()), text(box.max()), text(camera.pose.translation()));
+}
+
+// PLY, or an organized PCD.
 std::string cloud_bytes(const ScanArguments& arguments, const Scan& view, int tubes) {
   const CloudOf what = arguments.with_bin ? CloudOf::tubes_and_bin : CloudOf::tubes;
   std::ostringstream out;
-  if (std::filesystem::path(arguments.out).extension() == ".pcd") {
+  if (is_pcd(arguments.out)) {
     write_pcd(out, organized_cloud_from_scan(view, what, tubes, arguments.properties));
   } else {
     write_ply(out, cloud_from_scan(view, what, tubes, arguments.properties));
@@ -79,25 +98,53 @@ void print_summary(const ScanArguments& arguments, const Scan& view, const std::
             points[bin_label], arguments.with_bin ? "" : " (left out)");
 }
 
+// A manifest has 16 hexadecimal digits, which 0.1.0 took without 0x.
+std::uint64_t seed_of(const ScanArguments& arguments) {
+  constexpr std::size_t digits_in_manifest = 16;
+  if (arguments.seed.size() != digits_in_manifest || arguments.seed.starts_with("0x"))
+    return parse_seed(arguments.seed, "--seed");
+  print_error("tanglebin: --seed {0} is now --seed 0x{0}\n", arguments.seed);
+  return parse_seed("0x" + arguments.seed, "--seed");
+}
+
+std::string camera_file(const std::string& depth) {
+  return std::filesystem::path(depth).replace_extension(".json").string();
+}
+
+std::vector<Output> outputs(const ScanArguments& arguments) {
+  std::vector<Output> files{{"--out", arguments.out, cloud_extensions}};
+  if (arguments.depth) {
+    if (*arguments.depth == standard_stream)
+      throw InputError({"", 0, "--depth"}, "'-'", "a file's name, because the camera is written beside it");
+    files.push_back({"--depth", *arguments.depth, {".png"}});
+    files.push_back({"--depth", camera_file(*arguments.depth), {".json"}});
+  }
+  if (arguments.labels) files.push_back({"--labels", *arguments.labels, {".png"}});
+  if (arguments.picture) files.push_back({"--picture", *arguments.picture, {".png"}});
+  return files;
+}
+
 void scan_configuration(const ScanArguments& arguments) {
+  expect_outputs(outputs(arguments));
+  const Scanner scanner = scanner_with(arguments.scanner, arguments.parameters, "--parameter");
+  const Bin bin = bin_preset(arguments.bin);
+  validate(scanner.camera, bin);
+  const std::uint64_t seed = seed_of(arguments);
   const std::vector<Tube> tubes =
       read_input(arguments.configuration, [](auto&&... from) { return read_configuration(from...); });
-  const Scanner scanner = scanner_with(arguments.scanner, arguments.settings, "--set");
-  const Bin bin = bin_preset(arguments.bin);
-  const Scan view =
-      scan(tubes, bin, scanner.camera, scanner.sensor, parse_hexadecimal(arguments.seed, "--seed"));
+  const Scan view = scan(tubes, bin, scanner.camera, scanner.sensor, seed);
+  if (!tubes.empty() && !shows_a_tube(view)) warn_of_no_tube(scanner.camera, tubes);
   write_output(arguments.out, cloud_bytes(arguments, view, largest_id(tubes)));
   if (arguments.depth) {
     write_output(*arguments.depth, depth_png(depth_image(view)));
-    write_output(std::filesystem::path(*arguments.depth).replace_extension(".json").string(),
-                 camera_json(view.camera));
+    write_output(camera_file(*arguments.depth), camera_json(view.camera));
   }
   if (arguments.labels) write_output(*arguments.labels, label_png(label_image(view)));
   if (arguments.picture) {
     const Picture picture = picture_of_scan(scan(tubes, bin, scanner.camera), view, arguments.configuration);
     write_output(*arguments.picture, color_png(picture.width, picture.height, picture.pixels));
   }
-  if (arguments.out != standard_stream) print_summary(arguments, view, tubes);
+  if (!take_standard_output(outputs(arguments))) print_summary(arguments, view, tubes);
 }
 
 }  // namespace
@@ -119,11 +166,14 @@ void add_scan(CLI::App& app) {
                    "Scanner: paper (ideal), gaussian, zivid-one-plus-l or kinect-v1")
       ->capture_default_str();
   command
-      ->add_option("--set", arguments->settings,
-                   "Change a setting of the scanner, such as scanner.baseline=0.3")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  command->add_option("--seed", arguments->seed, "Seed of the scanner's noise, hexadecimal as in a manifest")
+      ->add_option("--parameter", arguments->parameters,
+                   "Set a parameter of the scanner, such as scanner.baseline=0.3 (docs/sensor.md)")
+      ->allow_extra_args(false)
+      ->option_text("NAME=VALUE");
+  command
+      ->add_option("--seed", arguments->seed,
+                   "Seed of the scanner's noise, such as a scene's in a manifest: decimal, or hexadecimal "
+                   "after 0x")
       ->capture_default_str();
   command->add_flag("--with-bin", arguments->with_bin, "Include the points on the bin, with label 0");
   command->add_option("--depth", arguments->depth,

@@ -29,7 +29,7 @@ namespace {
 
 struct ScoreArguments {
   std::string truth;
-  std::string labels;
+  std::string labelled;
   std::optional<std::string> true_tubes;
   std::optional<std::string> tubes;
   bool json = false;
@@ -174,8 +174,13 @@ std::optional<TubesScore> score_configurations(const ScoreArguments& arguments) 
 void score_labels(const ScoreArguments& arguments) {
   const auto read = [](auto&&... from) { return read_cloud(from...); };
   const PointCloud truth = read_input(arguments.truth, read);
-  const PointCloud labelled = read_input(arguments.labels, read);
-  const Score score = score_clouds(truth, arguments.truth, labelled, arguments.labels);
+  const PointCloud labelled = read_input(arguments.labelled, read);
+  const Score score = score_clouds(truth, arguments.truth, labelled, arguments.labelled);
+  if (repeats_truth(truth, labelled, arguments.labelled)) {
+    print_error(
+        "tanglebin: warning: {}: its {} are the truth's own at every point; are they the result to score?\n",
+        arguments.labelled, labelled.labels.empty() ? "colours" : "labels");
+  }
   const std::optional<TubesScore> tubes_score = score_configurations(arguments);
   if (arguments.json) {
     nlohmann::ordered_json json = score_json(score);
@@ -198,13 +203,14 @@ void add_score(CLI::App& app) {
                    "Cloud with the true labels (PLY or PCD); - for standard input")
       ->required();
   command
-      ->add_option("--labels", arguments->labels,
+      ->add_option("--labelled", arguments->labelled,
                    "Cloud with the labels to score: all or some points of the truth, in any order; - for "
                    "standard input")
       ->required();
-  CLI::Option* true_tubes = command->add_option("--true-tubes", arguments->true_tubes,
-                                                "Configuration of the true tubes, to score --tubes against");
-  CLI::Option* tubes = command->add_option("--tubes", arguments->tubes,
+  CLI::Option* true_tubes =
+      command->add_option("--true-tubes", arguments->true_tubes,
+                          "Configuration of the true tubes, to score --modelled-tubes against");
+  CLI::Option* tubes = command->add_option("--modelled-tubes", arguments->tubes,
                                            "Configuration of the modelled tubes, to score them too");
   true_tubes->needs(tubes);
   tubes->needs(true_tubes);
@@ -213,7 +219,7 @@ void add_score(CLI::App& app) {
                     "Also print the confusion matrix: points of each tube by label");
   command->footer(
       "If a cloud has no labels, each of its colours counts as a label, and black as null.\n\n"
-      "Example:\n  tanglebin score --truth dataset/A10/plys/1.ply --labels labelled.ply\n"
+      "Example:\n  tanglebin score --truth dataset/A10/plys/1.ply --labelled labelled.ply\n"
       "Measures: docs/metrics.md. Scoring your own algorithm: docs/scoring.md.");
   command->callback([arguments] { score_labels(*arguments); });
 }

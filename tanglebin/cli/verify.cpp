@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/exit_status.hpp"
 #include "tanglebin/cli/many_cases.hpp"
@@ -77,6 +78,7 @@ void print_text(const VerifyArguments& arguments, const VerifySummary& summary, 
 }
 
 void verify_and_report(const VerifyArguments& arguments) {
+  expect_dataset(arguments.dataset);
   VerifySummary summary = verify(arguments);
   if (arguments.repair && summary.is_in_progress) {
     throw InputError({arguments.dataset, 0, ""},

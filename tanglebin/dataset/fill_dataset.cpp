@@ -159,6 +159,7 @@ private:
       const auto [record, times] = make_(missing_[task], writer);
       return journal_line(record, times);
     };
+    observer_.begun(missing_);
     summary_.was_interrupted =
         !run_in_workers(request_.jobs, missing_.size(), make_case, workers, request_.case_limit);
   }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "tanglebin/recipe/case_id.hpp"
 
@@ -27,7 +28,8 @@ struct CaseEvent {
 
 /// Functions to call, in the calling process, as a run over many cases goes on.
 struct RunObserver {
-  std::function<void(const RunProgress&)> progress = [](const auto&) {};  ///< a few times a second
+  std::function<void(const std::vector<CaseId>&)> begun = [](const auto&) {};  ///< once, with the cases to do
+  std::function<void(const RunProgress&)> progress = [](const auto&) {};       ///< a few times a second
   std::function<void(const CaseEvent&, const RunProgress&)> ended = [](const auto&, const auto&) {};
   std::function<void()> stopping = [] {};  ///< after the first SIGINT or SIGTERM
 };

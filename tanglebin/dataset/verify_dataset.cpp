@@ -245,6 +245,7 @@ private:
       if (state.is_there && state.is_wanted) there.push_back(id);
     }
     RunProgress progress{.wanted = there.size()};
+    observer_.begun(there);
     const auto check = [&](std::size_t task) {
       std::string lines;
       for (const auto& [where, what] : faults_of(there[task])) {

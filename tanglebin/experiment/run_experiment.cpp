@@ -101,6 +101,7 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
     summary.failed.push_back({id, failure.reason});
     observer.ended({id, 0, 0, failure.reason}, summary.progress);
   };
+  observer.begun(missing);
   try {
     run_in_workers(jobs, missing.size(),
                    [&](std::size_t task) { return run_case(dataset, settings, missing[task]); },

@@ -1,14 +1,32 @@
 #include "tanglebin/geometry/bin.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
-#include <string>
-#include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/millimetres.hpp"
 #include "tanglebin/base/text.hpp"
 
 namespace tanglebin {
+namespace {
+
+void validate_positive(const char* field, double value) {
+  if (!std::isfinite(value) || value <= 0)
+    throw InputError({.file = "", .line = 0, .field = field}, fmt::format("{}", value),
+                     "a finite positive number");
+}
+
+void validate_size(const char* field, double metres, double least) {
+  constexpr double most = 10;
+  validate_positive(field, metres);
+  if (metres < least || metres > most)
+    throw InputError({.file = "", .line = 0, .field = field}, fmt::format("{} m", metres),
+                     fmt::format("{} to {} m{}", least, most, hint_of_millimetres(metres)));
+}
+
+}  // namespace
 
 Bin bin_preset(std::string_view name) {
   if (name == "paper") return Bin{};
@@ -32,17 +50,12 @@ std::array<Eigen::AlignedBox3d, 5> boxes(const Bin& bin) {
 }
 
 void validate(const Bin& bin) {
-  const std::array<std::pair<const char*, double>, 5> fields{{{"bin.length", bin.length},
-                                                              {"bin.width", bin.width},
-                                                              {"bin.height", bin.height},
-                                                              {"bin.wall", bin.wall},
-                                                              {"bin.friction", bin.friction}}};
-  for (const auto& [name, value] : fields) {
-    if (!std::isfinite(value) || value <= 0) {
-      throw InputError({.file = "", .line = 0, .field = name}, std::to_string(value),
-                       "a finite positive number");
-    }
-  }
+  constexpr double narrowest = 0.02;
+  validate_size("bin.length", bin.length, narrowest);
+  validate_size("bin.width", bin.width, narrowest);
+  validate_size("bin.height", bin.height, 0);
+  validate_size("bin.wall", bin.wall, 0);
+  validate_positive("bin.friction", bin.friction);
 }
 
 }  // namespace tanglebin

@@ -1,15 +1,14 @@
 #include "tanglebin/recipe/toml_table.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/suggestion.hpp"
 #include "tanglebin/base/text.hpp"
 
 namespace tanglebin {
@@ -17,35 +16,6 @@ namespace {
 
 constexpr std::int64_t int_min = std::numeric_limits<int>::min();
 constexpr std::int64_t int_max = std::numeric_limits<int>::max();
-
-// Levenshtein's distance: how many characters to insert, remove or replace.
-std::size_t edit_distance(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-// Which of `known` was meant by `key`: one that differs in few characters, or that begins with it.
-std::string hint(std::string_view key, const std::vector<std::string_view>& known) {
-  const auto distance = [key](std::string_view other) { return edit_distance(key, other); };
-  const auto begins_with_key = [key](std::string_view other) {
-    return !key.empty() && other.starts_with(key);
-  };
-  const auto nearest = std::ranges::min_element(known, {}, distance);
-  if (distance(*nearest) <= std::max<std::size_t>(1, key.size() / 3))
-    return fmt::format("did you mean {}?", excerpt(*nearest));
-  const auto longer = std::ranges::find_if(known, begins_with_key);
-  if (longer != known.end()) return fmt::format("did you mean {}?", excerpt(*longer));
-  return fmt::format("expected one of {}", fmt::join(known, ", "));
-}
 
 }  // namespace
 
@@ -110,7 +80,7 @@ void TomlTable::allow(const std::vector<std::string_view>& known) const {
   for (const auto& [key, node] : table_) {
     if (std::ranges::find(known, key.str()) != known.end()) continue;
     throw InputError({file(), key.source().begin.line, path_},
-                     fmt::format("unknown key {}, {}", excerpt(key.str()), hint(key.str(), known)));
+                     fmt::format("unknown key {}, {}", excerpt(key.str()), suggestion(key.str(), known)));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <boost/container_hash/hash.hpp>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -76,6 +77,18 @@ private:
   std::vector<std::size_t> next_;  // for each point, the next one at the same position
 };
 
+std::vector<std::int32_t> numbers_of(const std::vector<Color>& colors) {
+  std::vector<std::int32_t> numbers;
+  numbers.reserve(colors.size());
+  for (const auto& [red, green, blue] : colors) numbers.push_back(red << 16 | green << 8 | blue);
+  return numbers;
+}
+
+bool has_several_tubes(const std::vector<std::int32_t>& labels) {
+  const std::set<std::int32_t> all(labels.begin(), labels.end());
+  return std::distance(all.upper_bound(bin_label), all.end()) > 1;
+}
+
 std::string to_string(const Eigen::Vector3f& point) {
   return fmt::format("({}, {}, {})", point.x(), point.y(), point.z());
 }
@@ -123,6 +136,22 @@ Score score_clouds(const PointCloud& truth, const std::string& truth_file, const
   const auto truth_of_points = truth_labels(truth, truth_file);
   const auto labels = predicted_labels(labelled, labelled_file);
   return score(truth_of_points, match_points(truth, labelled, labels, labelled_file));
+}
+
+bool repeats_truth(const PointCloud& truth, const PointCloud& labelled, const std::string& file) {
+  const bool is_by_label = !labelled.labels.empty();
+  const auto of_truth = is_by_label ? truth.labels : numbers_of(truth.colors);
+  const auto of_labelled = is_by_label ? labelled.labels : numbers_of(labelled.colors);
+  if (of_truth.empty() || of_labelled.empty()) return false;
+  if (is_by_label && !has_several_tubes(of_labelled)) return false;
+  constexpr std::int32_t is_there = 1;
+  const auto matched = match_points(truth, labelled, of_labelled, file);
+  const auto there =
+      match_points(truth, labelled, std::vector<std::int32_t>(of_labelled.size(), is_there), file);
+  for (std::size_t i = 0; i < matched.size(); ++i) {
+    if (there[i] == is_there && matched[i] != of_truth[i]) return false;
+  }
+  return true;
 }
 
 }  // namespace tanglebin

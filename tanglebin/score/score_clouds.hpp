@@ -30,4 +30,9 @@ std::vector<std::int32_t> match_points(const PointCloud& truth, const PointCloud
 Score score_clouds(const PointCloud& truth, const std::string& truth_file, const PointCloud& labelled,
                    const std::string& labelled_file);
 
+/// Whether the labels that are scored may be the truth's own, left in the file by mistake: they are its
+/// colours at every point of the labelled cloud, or its labels, of at least two tubes. (Of one tube, they are
+/// often right.) Throws InputError as match_points() does.
+bool repeats_truth(const PointCloud& truth, const PointCloud& labelled, const std::string& file);
+
 }  // namespace tanglebin

@@ -39,7 +39,7 @@ protected:
 };
 
 TEST_F(ExperimentCommand, ModelsEveryCaseAndPrintsTheMeansByMethodAndSet) {
-  const ProgramResult run = experiment("--method paper --method axis --downsample 0.3,1");
+  const ProgramResult run = experiment("--method paper,axis --downsample 0.3,1");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.err, "");  // no progress where standard error is no terminal
   EXPECT_THAT(run.out, HasSubstr("mean micro-recall at ratio 0.3\n"));
@@ -123,9 +123,11 @@ TEST_F(ExperimentCommand, BadInputIsExitStatusTwoAndOneLine) {
   expect_error(experiment("--downsample 0.3,0.30"), "each ratio once");
   expect_error(experiment("--downsample 0.000000001:1:0.000000001"), "at most a thousand ratios");
   expect_error(experiment("--method none"), "none");
-  expect_error(experiment("--set C"), "dataset: no case matches --set, --tubes and --cases");
+  expect_error(
+      experiment("--set C"),
+      "dataset: no case matches --set, --tubes and --cases; there are set A with 1-2 tubes and cases 1-2");
   expect_error(run_program("experiment " + path("") + " --out " + path("r")),
-               "recipe.toml: cannot be opened");
+               "found no recipe.toml in it, expected the directory of a dataset");
   EXPECT_FALSE(std::filesystem::exists(path("results")));
 
   EXPECT_EQ(experiment("--downsample 0.3 --cases 1").status, 0);

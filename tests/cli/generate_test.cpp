@@ -90,6 +90,24 @@ TEST_F(Generate, MakesOnlyTheCasesAskedForAndGoesOnLater) {
   EXPECT_EQ(second["made"], 7);
 }
 
+TEST_F(Generate, ChoosesCasesByListsAndRanges) {
+  const auto wanted = [&](const std::string& options) {
+    return nlohmann::json::parse(run_program(command("--json " + options)).out)["wanted"].get<int>();
+  };
+  EXPECT_EQ(wanted("--set B --cases 1,3"), 2);
+  EXPECT_EQ(wanted("--set A,B --tubes 1-2 --cases 2"), 3);
+  EXPECT_EQ(wanted("--set A --set B --tubes 1,7-9"), 6);
+  EXPECT_EQ(run_program("generate --tubes 1 --cases 1 " + recipe_.string() + " --out " + out("other")).status,
+            0);
+}
+
+TEST_F(Generate, TheSeedMayBeHexadecimal) {
+  run_program(command("--seed 0x63 --cases 1 --tubes 1"));
+  EXPECT_THAT(bytes_of(directory_ / "dataset/recipe.toml"), HasSubstr("\nseed = 99\n"));
+  EXPECT_THAT(run_program(command("--seed 0xffffffffffffffff")).err,
+              HasSubstr("seed: found 18446744073709551615, expected at most 9223372036854775807"));
+}
+
 TEST_F(Generate, ShardsMakeEachCaseOnce) {
   std::size_t made = 0;
   for (const std::string shard : {"1", "2"}) {
@@ -209,11 +227,9 @@ TEST_F(Generate, CasesWithoutAValidSceneAreToldOfAndTheOthersMade) {
   EXPECT_THAT(
       result.out,
       HasSubstr("{\"event\":\"failure\",\"set\":\"A\",\"tubes\":12,\"case\":1,\"reason\":\"no valid "));
-  EXPECT_THAT(
-      result.err,
-      testing::ContainsRegex(
-          "^tanglebin: A12/1: failed: no valid scene of 12 tubes in 1 attempts: .* \\(seed [0-9a-f]+\\)\n"
-          "tanglebin: A12/2: failed: "));
+  EXPECT_THAT(result.err, testing::ContainsRegex("^tanglebin: A12/1: failed: no valid scene of 12 tubes in 1 "
+                                                 "attempts: .* \\(seed 0x[0-9a-f]{16}\\)\n"
+                                                 "tanglebin: A12/2: failed: "));
   EXPECT_EQ(std::ranges::count(bytes_of(directory_ / "dataset/failed.jsonl"), '\n'), 2);
   const auto hopeless = run_program(command("--tubes 12", "hopeless"));
   EXPECT_EQ(hopeless.status, 3);
@@ -255,8 +271,12 @@ TEST_F(Generate, BadInputIsExitStatusTwoAndOneLine) {
     EXPECT_EQ(result.out, "");
   };
   expect_error("generate " + (directory_ / "none.toml").string() + " --out " + out(), "none.toml: ");
-  expect_error(command("--set C"), "no case matches --set, --tubes and --cases");
-  expect_error(command("--cases 3-1"), "--cases: found '3-1', expected a number or a range such as 1-20");
+  expect_error(command("--set C"),
+               "recipe.toml: no case matches --set, --tubes and --cases; there are set A with 1-2 tubes and "
+               "cases 1-3; "
+               "set B with 1 tubes and cases 1-3");
+  expect_error(command("--cases 3-1"),
+               "--cases: found '3-1', expected numbers from 1, and ranges, such as 1,5,10-20");
   expect_error(command("--shard 3/2"),
                "--shard: found '3/2', expected I/N with I from 1 to N, such as 2/8, or auto");
   expect_error("generate " + recipe_.string() + " --out /proc/dataset", "/proc/dataset");
@@ -271,7 +291,7 @@ TEST_F(Generate, ACaseThatTakesTooLongIsAFailedOne) {
   // No heap is at rest so soon, and nobody waits for so many attempts.
   write_bytes(recipe_, "attempts = 1000000000\n" + std::string(recipe) + "[settle]\ntime_limit = 0.05\n");
   const auto result = run_program(command("--set A --tubes 2 --cases 1 --case-limit 0.3"));
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 3);
   EXPECT_THAT(result.err, HasSubstr("tanglebin: A2/1: failed: took longer than 0.3 s"));
 }
 

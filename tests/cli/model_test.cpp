@@ -56,7 +56,7 @@ protected:
 };
 
 TEST_F(ModelCommand, WritesThePointsWithLabelsAndTheTubes) {
-  const ProgramResult run = model("scan.ply", "--downsample 0.5 --tubes " + path("tubes.txt"));
+  const ProgramResult run = model("scan.ply", "--downsample 0.5 --modelled-tubes " + path("tubes.txt"));
   ASSERT_EQ(run.status, 0) << run.err;
   for (const char* step : {"filter", "vote", "fragment", "join", "fit", "label"})
     EXPECT_THAT(run.out, HasSubstr(step));
@@ -65,8 +65,8 @@ TEST_F(ModelCommand, WritesThePointsWithLabelsAndTheTubes) {
   EXPECT_EQ(read_configuration(directory_ / "tubes.txt").size(), 2U);
 
   const ProgramResult score =
-      run_program("score --json --truth " + path("scan.ply") + " --labels " + path("labelled.ply") +
-                  " --true-tubes " + path("truth.txt") + " --tubes " + path("tubes.txt"));
+      run_program("score --json --truth " + path("scan.ply") + " --labelled " + path("labelled.ply") +
+                  " --true-tubes " + path("truth.txt") + " --modelled-tubes " + path("tubes.txt"));
   ASSERT_EQ(score.status, 0) << score.err;
   const auto json = nlohmann::json::parse(score.out);
   EXPECT_GT(json.at("micro_recall"), 0.98);
@@ -89,6 +89,13 @@ TEST_F(ModelCommand, ReadsAPipeAndWritesOne) {
   ASSERT_EQ(run.status, 0) << run.err;
   std::istringstream in(run.out);
   EXPECT_EQ(read_cloud(in, "output").points, scan_.points);
+}
+
+TEST_F(ModelCommand, PrintsNothingBesideTubesOnStandardOutput) {
+  const ProgramResult run = model("scan.ply", "--modelled-tubes -");
+  ASSERT_EQ(run.status, 0) << run.err;
+  std::istringstream in(run.out);
+  EXPECT_EQ(read_configuration(in, "output").size(), 2U);
 }
 
 TEST_F(ModelCommand, KeepsAnOrganizedCloudOrganizedInPcdAndDropsItsHolesInPly) {
@@ -124,7 +131,7 @@ TEST_F(ModelCommand, DrawsWhatEachStepLeft) {
 TEST_F(ModelCommand, OfAnEmptyCloudWritesAnEmptyOne) {
   write("empty.ply", ply_of({}));
   const ProgramResult run =
-      model("empty.ply", "--tubes " + path("tubes.txt") + " --debug-dir " + path("steps"));
+      model("empty.ply", "--modelled-tubes " + path("tubes.txt") + " --debug-dir " + path("steps"));
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(read_cloud(directory_ / "labelled.ply").points.empty());
   EXPECT_EQ(test::bytes_of(directory_ / "tubes.txt"), "0\n");
@@ -149,8 +156,8 @@ TEST_F(ModelCommand, TakesTubesOfSeveralRadiiAndLengths) {
                                    test::chain(2, 0.0125, {{-0.2, -0.1, 0.0125}, {0.2, -0.1, 0.0125}})};
   const PointCloud cloud = test::scanned(tubes);
   write("mixed.ply", ply_of(cloud));
-  const ProgramResult run =
-      model("mixed.ply", "--radius 0.008,0.0125 --length 0.3,0.4 --json --tubes " + path("tubes.txt"));
+  const ProgramResult run = model(
+      "mixed.ply", "--radius 0.008,0.0125 --length 0.3,0.4 --json --modelled-tubes " + path("tubes.txt"));
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out).at("radii"), nlohmann::json::parse("[0.008, 0.0125]"));
   const std::vector<Tube> found = read_configuration(directory_ / "tubes.txt");
@@ -166,8 +173,16 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
   write("mm.ply", ply_of(millimetres));
   const std::vector<std::pair<ProgramResult, std::string>> refusals = {
       {model("mm.ply", ""), "millimetres?"},
+      {model("scan.ply", "--radius 8"), "radius: found 8 m, expected less than 0.185 m"},
+      {model("scan.ply", "--length 80"), "length: found 80 m, expected at most 6.92 m"},
+      {model("scan.ply", "--downsample 0.1,0.2"), "--downsample: found 2 ratios, expected one"},
+      {model("scan.ply", "--modelled-tubes tubes.ply"),
+       "--modelled-tubes: found 'tubes.ply', expected a name that ends in .txt"},
+      {run_program("model " + path("scan.ply") + " --out labelled.xyz"),
+       "--out: found 'labelled.xyz', expected a name that ends in .ply or .pcd"},
       {model("scan.ply", "--method magic"), "method: found 'magic', expected paper, axis"},
-      {model("scan.ply", "--downsample 0"), "downsample: found 0, expected"},
+      {model("scan.ply", "--downsample 0"),
+       "--downsample: found '0', expected a ratio above 0 and at most 1"},
       {model("scan.ply", "--radius -1"), "--radius: found '-1', expected a positive number"},
       {model("scan.ply", "--radius 0.01,"), "--radius: found '', expected a positive number"},
       {model("scan.ply", "--radius 0.01,0.01"), "radius: found 0.01 m for two kinds"},

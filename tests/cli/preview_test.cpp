@@ -122,8 +122,9 @@ TEST_F(Preview, SaysWhatIsWrongWithItsInputAndExitsWith2) {
   EXPECT_THAT(message("cut.txt"), StartsWith("tanglebin: cut.txt:"));
   EXPECT_THAT(message("empty.ply"), HasSubstr("empty.ply: found a cloud without points"));
   EXPECT_THAT(message("- < story.txt"), StartsWith("tanglebin: standard input: found 'O' at the start"));
+  EXPECT_THAT(preview("tube.txt --out p.jpg").err,
+              HasSubstr("--out: found 'p.jpg', expected a name that ends in .png"));
   EXPECT_THAT(message("tube.txt --bin round"), HasSubstr("found 'round', expected paper or published"));
-  EXPECT_THAT(message("tube.txt --width 0"), HasSubstr("width: found 0, expected 1 to 4096 pixels"));
   EXPECT_THAT(message("tube.txt --elevation-deg 100"),
               HasSubstr("elevation: found 100°, expected -90° to 90°"));
 }
@@ -141,6 +142,10 @@ TEST_F(Preview, ExitsWith64WhereItIsNotCalledAsItsHelpSays) {
   EXPECT_EQ(preview("").status, 64);
   EXPECT_EQ(preview("tube.txt").status, 64);
   EXPECT_EQ(preview("tube.txt --out a.png --width wide").status, 64);
+  EXPECT_THAT(preview("tube.txt --out a.png --width 0").err,
+              HasSubstr("--width: found '0', expected a whole number from 1 to 4096"));
+  EXPECT_THAT(preview("tube.txt --out a.png --azimuth-deg 1e999").err,
+              HasSubstr("--azimuth-deg: found '1e999', expected a number\n"));
   EXPECT_EQ(preview("tube.txt --out a.png --colour").status, 64);
 }
 

@@ -48,6 +48,8 @@ TEST_F(ReportCommand, ABadLineIsBadInput) {
 }
 
 TEST_F(ReportCommand, ADirectoryOfAnotherKindIsBadInput) {
+  EXPECT_EQ(run_program("report /nowhere --out page.pdf").err,
+            "tanglebin: --out: found 'page.pdf', expected a name that ends in .html\n");
   const ProgramResult result = run_program("report /nowhere --out -");
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("/nowhere/experiment.json: is missing"));

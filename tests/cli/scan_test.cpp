@@ -16,7 +16,9 @@ namespace tanglebin {
 namespace {
 
 using test::bytes_of;
+using test::files_below;
 using test::run_program;
+using test::run_shell;
 using test::TemporaryDirectory;
 using test::write_bytes;
 using testing::Contains;
@@ -80,9 +82,9 @@ TEST_F(ScanCommand, SeesLikeARealScannerWhereAsked) {
   const std::string noisy = (directory_ / "noisy.ply").string();
   const std::string picture = (directory_ / "picture.png").string();
   run_program(command + ideal);
-  const auto result =
-      run_program(command + noisy + " --set scanner.dropout=0.5 --set scanner.sigma=0.001 --seed 1f" +
-                  " --normals --intensities --mixed --picture " + picture);
+  const auto result = run_program(
+      command + noisy + " --parameter scanner.dropout=0.5 --parameter scanner.sigma=0.001 --seed 0x1f" +
+      " --normals --intensities --mixed --picture " + picture);
   EXPECT_EQ(result.status, 0) << result.err;
   const PointCloud cloud = read_ply(noisy);
   EXPECT_NEAR(static_cast<double>(cloud.points.size()) / static_cast<double>(read_ply(ideal).points.size()),
@@ -103,12 +105,79 @@ TEST_F(ScanCommand, NamesTheSettingThatIsWrong) {
     EXPECT_FALSE(std::filesystem::exists(directory_ / "cloud.ply"));
     return result.err;
   };
-  EXPECT_THAT(said("--set scanner.sigma=0.1 --set scanner.baseline=0"),
-              HasSubstr("--set:2: scanner.baseline: found 0, expected a positive distance"));
-  EXPECT_THAT(said("--set scanner.snr=-1"), HasSubstr("scanner.snr: found -1"));
-  EXPECT_THAT(said("--set scanner.focal_length_px=0"), HasSubstr("scanner.focal_length_px: found 0"));
-  EXPECT_THAT(said("--set scanner.edges=blur"), HasSubstr("\"keep\", \"drop\" or \"mix\""));
-  EXPECT_THAT(said("--seed 0x1"), HasSubstr("--seed: found '0x1'"));
+  EXPECT_THAT(said("--parameter scanner.sigma=0.1 --parameter scanner.baseline=0"),
+              HasSubstr("--parameter:2: scanner.baseline: found 0, expected a positive distance"));
+  EXPECT_THAT(said("--parameter scanner.snr=-1"), HasSubstr("scanner.snr: found -1"));
+  EXPECT_THAT(said("--parameter scanner.focal_length_px=0"), HasSubstr("scanner.focal_length_px: found 0"));
+  EXPECT_THAT(said("--parameter scanner.edges=blur"), HasSubstr("\"keep\", \"drop\" or \"mix\""));
+  EXPECT_THAT(said("--seed 1f"),
+              HasSubstr("--seed: found '1f', expected a seed of at most 64 bits: decimal, or"));
+}
+
+TEST_F(ScanCommand, RefusesACameraThatCannotSeeTheBin) {
+  const auto said = [&](const std::string& settings) {
+    const auto result = run_program("scan " + configuration_.string() + " --out - " + settings);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    return result.err;
+  };
+  EXPECT_THAT(
+      said("--parameter scanner.position=[0,0,-1]"),
+      HasSubstr("scanner.position: found a camera at (0, 0, -1) m that looks along (0, 0, -1), expected one "
+                "above the bin's floor, z > 0"));
+  EXPECT_THAT(said("--parameter scanner.position=[9,0,2]"),
+              HasSubstr("expected one that has the bin in its view"));
+}
+
+TEST_F(ScanCommand, WarnsOfAScanWithoutATube) {
+  const std::string far_away = R"(1
+1 2 1
+1 -200 0 12.5 12.5
+2 -100 0 12.5 12.5
+e_1_2 1 2 1 12.5 -150 0 12.5 0.70710678 0 0.70710678 0 100
+)";
+  const auto result = run_program("scan - --out " + (directory_ / "cloud.ply").string(), far_away);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(
+      result.err,
+      "tanglebin: warning: the scan has no point of a tube; the tubes are between (-212.5, -12.5, 0) and "
+      "(-87.5, 12.5, 25) m, the camera at (0, 0, 2)\n");
+}
+
+TEST_F(ScanCommand, TheExtensionSaysTheFormat) {
+  const auto said = [&](const std::string& outputs) {
+    const auto result = run_shell("cd " + directory_.path().string() + " && " + TANGLEBIN_PROGRAM +
+                                  " scan tube.txt --out " + outputs);
+    EXPECT_EQ(result.status, 2);
+    return result.err;
+  };
+  EXPECT_EQ(said("x.obj"), "tanglebin: --out: found 'x.obj', expected a name that ends in .ply or .pcd\n");
+  EXPECT_EQ(said("ply"), "tanglebin: --out: found 'ply', expected a name that ends in .ply or .pcd\n");
+  EXPECT_EQ(said("c.ply --depth d.tiff"),
+            "tanglebin: --depth: found 'd.tiff', expected a name that ends in .png\n");
+  EXPECT_THAT(said("c.ply --depth -"), HasSubstr("--depth: found '-', expected a file's name"));
+  EXPECT_THAT(said("c.ply --labels l.jpg"), HasSubstr("--labels: found 'l.jpg'"));
+  EXPECT_THAT(said("c.ply --picture p.jpg"), HasSubstr("--picture: found 'p.jpg'"));
+  EXPECT_EQ(said("c.ply --labels a.png --picture a.png"),
+            "tanglebin: --picture: found 'a.png' twice, expected different files\n");
+  EXPECT_THAT(said("- --labels -"), HasSubstr("--labels: found '-' twice"));
+  EXPECT_EQ(files_below(directory_.path().string()).size(), 1U) << "nothing is written";
+
+  run_program("scan " + configuration_.string() + " --out " + (directory_ / "CLOUD.PCD").string());
+  EXPECT_EQ(read_pcd(directory_ / "CLOUD.PCD").width, 1920U);
+}
+
+// A manifest's seeds have 16 hexadecimal digits; 0.1.0 took them without 0x.
+TEST_F(ScanCommand, TakesAManifestsSeedWithoutItsPrefixForNow) {
+  const std::string command =
+      "scan " + configuration_.string() + " --out - --parameter scanner.dropout=0.5 --seed ";
+  const auto old = run_program(command + "00000000000000a7");
+  EXPECT_EQ(old.err, "tanglebin: --seed 00000000000000a7 is now --seed 0x00000000000000a7\n");
+  const auto current = run_program(command + "0xa7");
+  EXPECT_EQ(current.err, "");
+  EXPECT_EQ(old.out, current.out);
+  EXPECT_EQ(run_program(command + "167").out, current.out);
+  EXPECT_NE(run_program(command + "168").out, current.out);
 }
 
 TEST_F(ScanCommand, StandardInputAndOutputTakeAndGiveTheSame) {

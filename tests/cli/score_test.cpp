@@ -49,7 +49,7 @@ protected:
 
   ProgramResult score(const std::string& truth, const std::string& labels,
                       const std::string& options = "") const {
-    return run_program("score --truth " + path(truth) + " --labels " + path(labels) + " " + options);
+    return run_program("score --truth " + path(truth) + " --labelled " + path(labels) + " " + options);
   }
 
   ProgramResult score_example(const std::string& options = "") const {
@@ -122,6 +122,16 @@ TEST_F(ScoreCommand, PrintsTheConfusionMatrixOnRequest) {
   EXPECT_EQ(json.at("points"), nlohmann::json({{26, 2, 0, 11}, {0, 24, 2, 7}}));
 }
 
+TEST_F(ScoreCommand, WarnsOfTheTruthsOwnLabels) {
+  const ProgramResult forgotten = score("truth.ply", "truth.ply", "--json");
+  EXPECT_EQ(forgotten.status, 0);
+  EXPECT_EQ(nlohmann::json::parse(forgotten.out).at("micro_recall"), 1.0);
+  EXPECT_EQ(forgotten.err,
+            "tanglebin: warning: " + path("truth.ply") +
+                ": its labels are the truth's own at every point; are they the result to score?\n");
+  EXPECT_EQ(score_example().err, "");
+}
+
 TEST_F(ScoreCommand, ATubeWithoutALabelHasNone) {
   write("one.ply", one_point("0.071 0.25 0", "4"));
   EXPECT_THAT(score("truth.ply", "one.ply").out,
@@ -133,7 +143,7 @@ TEST_F(ScoreCommand, ATubeWithoutALabelHasNone) {
 TEST_F(ScoreCommand, ScoresTubesTooWhereItIsGivenThem) {
   write("true.txt", tube_from(0, 0, 0.4));
   write("tubes.txt", tube_from(0, 0.0025, 0.4));
-  const std::string tubes = "--true-tubes " + path("true.txt") + " --tubes " + path("tubes.txt");
+  const std::string tubes = "--true-tubes " + path("true.txt") + " --modelled-tubes " + path("tubes.txt");
   EXPECT_THAT(score_example(tubes).out, HasSubstr("centre-line error    2.50 mm  95th percentile 2.50 mm\n"
                                                   "centre-line coverage 1.000\n"
                                                   "joins                0 of 0 missing, 0 of 0 wrong\n"));
@@ -149,7 +159,7 @@ TEST_F(ScoreCommand, ScoresTubesTooWhereItIsGivenThem) {
 TEST_F(ScoreCommand, WithoutAModelledTubeThereIsNoError) {
   write("true.txt", tube_from(0, 0, 0.4));
   write("none.txt", "0\n");
-  const std::string tubes = "--true-tubes " + path("true.txt") + " --tubes " + path("none.txt");
+  const std::string tubes = "--true-tubes " + path("true.txt") + " --modelled-tubes " + path("none.txt");
   EXPECT_THAT(score_example(tubes).out, HasSubstr("centre-line error    none  95th percentile none\n"));
   EXPECT_TRUE(nlohmann::json::parse(score_example("--json " + tubes).out)["centre_line_error"].is_null());
 }
@@ -157,21 +167,21 @@ TEST_F(ScoreCommand, WithoutAModelledTubeThereIsNoError) {
 TEST_F(ScoreCommand, TakesTubesAndTrueTubesTogether) {
   write("true.txt", tube_from(0, 0, 0.4));
   EXPECT_EQ(score_example("--true-tubes " + path("true.txt")).status, 64);
-  EXPECT_EQ(score_example("--tubes " + path("true.txt")).status, 64);
+  EXPECT_EQ(score_example("--modelled-tubes " + path("true.txt")).status, 64);
 }
 
 TEST_F(ScoreCommand, NeedsATrueTube) {
   write("true.txt", tube_from(0, 0, 0.4));
   write("none.txt", "0\n");
   const ProgramResult run =
-      score_example("--true-tubes " + path("none.txt") + " --tubes " + path("true.txt"));
+      score_example("--true-tubes " + path("none.txt") + " --modelled-tubes " + path("true.txt"));
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(run.out, "");
   EXPECT_THAT(run.err, HasSubstr("none.txt: the true tubes have no centre line\n"));
 }
 
 TEST_F(ScoreCommand, ReadsTheLabelsFromStandardInput) {
-  const ProgramResult run = run_program("score --json --labels - --truth " + path("truth.ply"),
+  const ProgramResult run = run_program("score --json --labelled - --truth " + path("truth.ply"),
                                         test::bytes_of(path("labelled.pcd")));
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.out, score_example("--json").out);

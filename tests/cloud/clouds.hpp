@@ -32,6 +32,25 @@ inline bool same_properties(const PointCloud& a, const PointCloud& b) {
   return same_points(a, b) && a.labels == b.labels && a.colors == b.colors;
 }
 
+/// Two points with what a sensor adds.
+inline PointCloud cloud_of_a_sensor() {
+  PointCloud cloud;
+  cloud.points = {{1, 2, 3}, {4, 5, 6}};
+  cloud.width = 2;
+  cloud.normals = {{0, 0, 1}, {0, -1, 0}};
+  cloud.labels = {1, 0};
+  cloud.intensities = {0.5F, 2.25F};
+  cloud.mixed = {0, 1};
+  return cloud;
+}
+
+inline void expect_same_sensor_properties(const PointCloud& a, const PointCloud& b) {
+  EXPECT_EQ(a.normals, b.normals);
+  EXPECT_EQ(a.labels, b.labels);
+  EXPECT_EQ(a.intensities, b.intensities);
+  EXPECT_EQ(a.mixed, b.mixed);
+}
+
 /// Two points with everything.
 inline PointCloud small_cloud() {
   PointCloud cloud;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tanglebin/base/error.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
@@ -81,6 +82,17 @@ TEST(Bin, ValidationNamesTheFieldThatIsNotAPositiveNumber) {
   EXPECT_EQ(rejected_field(&Bin::height, std::numeric_limits<double>::infinity()), "bin.height");
   EXPECT_EQ(rejected_field(&Bin::wall, std::numeric_limits<double>::quiet_NaN()), "bin.wall");
   EXPECT_EQ(rejected_field(&Bin::friction, -1), "bin.friction");
+}
+
+TEST(Bin, ValidationTakesLargeSizesForMillimetres) {
+  const auto complaint = [](const Bin& bin) { return test::complaint([&] { validate(bin); }); };
+  EXPECT_EQ(complaint({.height = 300}), "bin.height: found 300 m, expected 0 to 10 m; for 300 mm write 0.3");
+  EXPECT_EQ(complaint({.length = 550}),
+            "bin.length: found 550 m, expected 0.02 to 10 m; for 550 mm write 0.55");
+  EXPECT_EQ(complaint({.width = 0.001}), "bin.width: found 0.001 m, expected 0.02 to 10 m");
+  EXPECT_EQ(complaint({.wall = 20}), "bin.wall: found 20 m, expected 0 to 10 m; for 20 mm write 0.02");
+  EXPECT_EQ(complaint({.length = 10, .width = 0.02, .height = 0.001, .wall = 1e-4, .friction = 1000}),
+            "none");
 }
 
 }  // namespace

@@ -161,7 +161,19 @@ TEST_P(ModelTubes, RefusesASceneThatIsNone) {
   scene.kinds[0].radius = 1e-9;
   EXPECT_THAT(complaint({}, scene, 1),
               HasSubstr("radius: found 1e-09 m, expected at least 5.5e-06 m, for a bin that is 0.55 m long"));
+  scene.kinds[0].radius = 8;
+  EXPECT_THAT(
+      complaint({}, scene, 1),
+      HasSubstr("radius: found 8 m, expected less than 0.185 m, half the bin's narrower side; for 8 mm "
+                "write 0.008"));
   scene = paper_scene();
+  scene.kinds[0].segments = {{1, 2, 80}};
+  EXPECT_THAT(
+      complaint({}, scene, 1),
+      HasSubstr("length: found 80 m, expected at most 6.92 m, ten times the bin's diagonal; for 80 mm "
+                "write 0.08"));
+  scene.kinds[0].segments = {{1, 2, 0.3}, {1, 3, 7}};
+  EXPECT_THAT(complaint({}, scene, 1), HasSubstr("tree: found 7.3 m, expected at most 6.92 m"));
   scene.kinds[0].segments = {{1, 2, std::numeric_limits<double>::quiet_NaN()}};
   EXPECT_THAT(complaint({}, scene, 1),
               HasSubstr("length: found nan m from node 1 to 2, expected a positive"));

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/complaint.hpp"
+#include "tests/recipe/recipes.hpp"
 #include "tests/support/recipe_of_0_1_0.hpp"
 #include "tests/support/statistics.hpp"
 
@@ -31,21 +31,6 @@ const std::string scanner =
     "[scanner]\npreset = \"zivid-one-plus-l\"\nbaseline = { min = 0.1, max = 0.3 }\n"
     "hfov_deg = { min = 30, max = 60 }\n"
     "position = [{ min = -0.2, max = 0.2 }, 0, { one_of = [1.5, 2] }]\nlook_at = [0, 0, 0.1]\n";
-
-Recipe read(const std::string& text) {
-  std::istringstream in(text);
-  return read_recipe(in, "r.toml");
-}
-
-std::string write(const Recipe& recipe) {
-  std::ostringstream out;
-  write_recipe(out, recipe);
-  return out.str();
-}
-
-std::string complaint(const std::string& text) {
-  return test::complaint([&] { read(text); });
-}
 
 std::map<std::string, double> drawn(const Recipe& recipe, const CaseId& id) {
   std::map<std::string, double> numbers;

@@ -21,7 +21,7 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/recipe/case_id.hpp"
 #include "tanglebin/recipe/toml_table.hpp"
-#include "tests/support/complaint.hpp"
+#include "tests/recipe/recipes.hpp"
 
 namespace tanglebin {
 namespace {
@@ -60,21 +60,6 @@ const std::string tree =
     "cylinders_min = 2\n"
     "cylinders_max = 5\n"
     "bend_max_deg = 20\n";
-
-Recipe read(const std::string& text) {
-  std::istringstream in(text);
-  return read_recipe(in, "r.toml");
-}
-
-std::string write(const Recipe& recipe) {
-  std::ostringstream out;
-  write_recipe(out, recipe);
-  return out.str();
-}
-
-std::string complaint(const std::string& text) {
-  return test::complaint([&] { read(text); });
-}
 
 // What is said of the smallest recipe (or another) after one change of its text.
 std::string complaint_after(const std::string& old_text, const std::string& new_text,

@@ -196,6 +196,37 @@ TEST(LabelsFromColors, LabelsComeBeforeColors) {
   EXPECT_EQ(truth_labels(both, "truth.ply"), both.labels);
 }
 
+bool repeats(const PointCloud& truth, const PointCloud& labelled) {
+  return repeats_truth(truth, labelled, "labelled.ply");
+}
+
+TEST(RepeatsTruth, TheTruthsColoursAtEveryPointAreItsOwn) {
+  const PointCloud truth = in_color(cloud_with({0, 0, 0}), {{1, 2, 3}, {4, 5, 6}, {4, 5, 7}});
+  EXPECT_TRUE(repeats(truth, truth));
+  EXPECT_TRUE(repeats(truth, chosen(truth, {2, 0})));
+  EXPECT_FALSE(repeats(truth, in_color(truth, {{1, 2, 3}, {4, 5, 6}, {4, 5, 6}})));
+  EXPECT_FALSE(repeats(truth, in_color(truth, {{1, 2, 3}, {4, 5, 6}, null_color})));
+}
+
+TEST(RepeatsTruth, TheTruthsLabelsOfSeveralTubesAreItsOwn) {
+  const PointCloud truth = cloud_with({0, 1, 2, 2});
+  EXPECT_TRUE(repeats(truth, truth));
+  EXPECT_TRUE(repeats(truth, chosen(truth, {3, 1})));
+  EXPECT_FALSE(repeats(truth, cloud_with({0, 1, 2, 1})));
+  EXPECT_FALSE(repeats(truth, cloud_with({0, 1, 2, -1})));
+  EXPECT_FALSE(repeats(truth, cloud_with({0, 2, 1, 1}))) << "right, with numbers of its own";
+}
+
+TEST(RepeatsTruth, RightLabelsOfOneTubeMayBeAResult) {
+  EXPECT_FALSE(repeats(cloud_with({0, 1, 1}), cloud_with({0, 1, 1})));
+}
+
+TEST(RepeatsTruth, LabelsAndColoursAreNotCompared) {
+  const PointCloud truth = cloud_with({1, 2});
+  EXPECT_FALSE(repeats(truth, in_color(truth, {{1, 2, 3}, {4, 5, 6}})));
+  EXPECT_FALSE(repeats(in_color(truth, {{1, 2, 3}, {4, 5, 6}}), truth));
+}
+
 TEST(LabelsFromColors, ScoreAsTheLabelsThemselves) {
   const LabelsOfPoints labels = {0, 1, 1, 2, 3, 3, 3};
   const std::vector<Color> palette = label_colors(3);

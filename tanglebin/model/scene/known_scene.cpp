@@ -2,11 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/millimetres.hpp"
 
 namespace tanglebin {
 namespace {
@@ -15,6 +17,21 @@ void check_positive(double value, const std::string& field) {
   if (!std::isfinite(value) || value <= 0) {
     throw InputError({"", 0, field}, fmt::format("{}", value), "a positive number");
   }
+}
+
+// Larger numbers are not in metres. A tube may be longer than the bin, but not many times.
+void validate_fit(const TubeKind& kind, const Bin& bin) {
+  const double widest = std::min(bin.length, bin.width) / 2;
+  if (kind.radius >= widest)
+    throw InputError({"", 0, "radius"}, fmt::format("{} m", kind.radius),
+                     fmt::format("less than {:.4g} m, half the bin's narrower side{}", widest,
+                                 hint_of_millimetres(kind.radius)));
+  constexpr double too_many_times = 10;
+  const double longest = too_many_times * Eigen::Vector3d(bin.length, bin.width, bin.height).norm();
+  if (kind.length() > longest)
+    throw InputError({"", 0, kind.branches() ? "tree" : "length"}, fmt::format("{} m", kind.length()),
+                     fmt::format("at most {:.3g} m, ten times the bin's diagonal{}", longest,
+                                 hint_of_millimetres(kind.length())));
 }
 
 }  // namespace
@@ -33,6 +50,7 @@ void validate(const KnownScene& known) {
       throw InputError({"", 0, "radius"}, fmt::format("{} m", kind.radius),
                        fmt::format("at least {:.4g} m, for a bin that is {} m long",
                                    thinnest * known.bin.length, known.bin.length));
+    validate_fit(kind, known.bin);
     if (!radii.insert(kind.radius).second)
       throw InputError({"", 0, "radius"}, fmt::format("{} m for two kinds", kind.radius),
                        "a different radius for each kind");

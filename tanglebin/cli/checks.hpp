@@ -1,0 +1,14 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+// Checks of options that CLI11 converts to numbers.
+namespace tanglebin::cli {
+
+/// A whole number from `least` to `most`.
+CLI::Validator whole_number(int least, int most);
+
+/// A finite number.
+CLI::Validator finite_number();
+
+}  // namespace tanglebin::cli
