@@ -36,6 +36,7 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
                                  const std::vector<CaseId>& wanted, const std::filesystem::path& directory,
                                  int jobs, const RunObserver& observer) {
   for (const Method method : settings.methods) expect_available(method);
+  expect_clouds(dataset);
   make_directories(directory);
   const Journal journal(directory);
   claim(directory, dataset, settings);
