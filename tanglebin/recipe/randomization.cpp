@@ -173,7 +173,10 @@ void add_settings_of(const toml::node& node, const std::string& path, std::vecto
       settings.push_back({place, read_random_number(*value.as_table(), place, {})});
       return false;
     }
-    if (value.is_number()) settings.push_back({place, *value.value<double>()});
+    if (const auto* real = value.as_floating_point()) settings.push_back({place, real->get()});
+    if (const auto* integer = value.as_integer()) {
+      settings.push_back({place, static_cast<double>(integer->get())});
+    }
     return true;
   });
 }

@@ -148,6 +148,13 @@ TEST(Randomization, TheScannerMovesAboutWhatItLooksAt) {
   }
 }
 
+// Found by fuzzing: toml++ does not convert such a number to double.
+TEST(Randomization, AWholeNumberThatNoDoubleHoldsGoesWithADrawnPose) {
+  const Recipe recipe = read(
+      "[scanner]\nposition = [{ min = 0, max = 1 }, 0, 2]\nlook_at = [0, 9223372036854775807, 0]\n" + sets);
+  EXPECT_EQ(read(write(recipe)), recipe);
+}
+
 TEST(Randomization, OnlyTheDistanceOfAScannerIsDrawn) {
   const Recipe recipe =
       read("[scanner]\nlook_at = [0, 0, 0]\ndistance = { one_of = [1, 2] }\ntilt_deg = 30\n" + sets);
