@@ -61,7 +61,7 @@ void read_times_and_drawn_numbers(const tanglebin::Catalogue& catalogue) {
   static const tanglebin::Recipe recipe = recipe_with_a_number_to_draw();
   for (const tanglebin::CaseId& id : catalogue.cases()) {
     catalogue.times(id);
-    resolve(recipe, catalogue.record(id).drawn);
+    resolve(recipe, id, catalogue.record(id).drawn);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/dry_run.hpp"
 #include "tanglebin/cli/fill_report.hpp"
 #include "tanglebin/cli/many_cases.hpp"
 #include "tanglebin/cli/print.hpp"
@@ -31,6 +32,8 @@ struct GenerateArguments {
   double case_limit = std::chrono::duration<double>(default_case_limit).count();  ///< s
   ProgressStyle progress = ProgressStyle::line;
   bool json = false;
+  bool dry_run = false;
+  std::optional<std::string> picture;
 };
 
 Recipe recipe_of(const GenerateArguments& arguments) {
@@ -72,11 +75,12 @@ void generate(const GenerateArguments& arguments) {
   const Recipe recipe = recipe_of(arguments);
   const std::optional<Shard> shard = shard_of(arguments);
   std::vector<CaseId> wanted = chosen(arguments.many, cases(recipe), arguments.recipe);
-  if (shard) {
-    wanted = part_of(*shard, wanted);
-  } else {
-    mention_array();
+  if (shard) wanted = part_of(*shard, wanted);
+  if (arguments.dry_run) {
+    print_dry_run(recipe, wanted, {arguments.many.jobs, arguments.json, arguments.picture});
+    return;
   }
+  if (!shard) mention_array();
   const Clock::time_point start = Clock::now();
   const FillSummary summary = [&] {
     ProgressReport progress(arguments.progress);
@@ -99,8 +103,15 @@ void add_generate(CLI::App& app) {
   const auto arguments = std::make_shared<GenerateArguments>();
   CLI::App* command = app.add_subcommand("generate", "Generate a dataset of labelled scans from a recipe");
   command->add_option("recipe", arguments->recipe, "Recipe (TOML); - for standard input")->required();
-  command->add_option("--out", arguments->out, "Directory of the dataset; resumes an interrupted run")
-      ->required();
+  CLI::Option* out =
+      command->add_option("--out", arguments->out, "Directory of the dataset; resumes an interrupted run");
+  CLI::Option* dry_run = command->add_flag(
+      "--dry-run", arguments->dry_run,
+      "Write no dataset: make a few cases in memory, say what all will take and what looks wrong");
+  command
+      ->add_option("--picture", arguments->picture,
+                   "With --dry-run, a picture (PNG) of what the scanner sees of the first case")
+      ->needs(dry_run);
   add_options(*command, arguments->many);
   command->add_option(
       "--shard", arguments->shard,
@@ -115,10 +126,14 @@ void add_generate(CLI::App& app) {
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin generate recipes/set-a.toml --out dataset --tubes 10 --cases 1-3\n"
+      "  tanglebin generate recipe.toml --dry-run --picture first.png\n"
       "Ctrl-C finishes the cases in progress, once more ends at once; run the same command again to resume.\n"
       "Exit status: 3 if cases failed, 130 if interrupted.\n"
       "Formats: docs/formats.md. Clusters: docs/cluster.md.");
-  command->callback([arguments] { generate(*arguments); });
+  command->callback([arguments, out] {
+    if (out->empty() && !arguments->dry_run) throw CLI::RequiredError("--out");
+    generate(*arguments);
+  });
 }
 
 }  // namespace tanglebin::cli

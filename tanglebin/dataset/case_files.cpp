@@ -28,6 +28,7 @@ CloudOf points_of(const Recipe& recipe) {
 
 void add_cloud(const Recipe& recipe, const CaseId& id, const std::string& scanner, const Scan& view,
                std::vector<CaseFile>& files) {
+  if (!recipe.output.plys) return;
   files.push_back({file_of(id, "plys", "ply", scanner), bytes_of([&](std::ostream& out) {
                      write_ply(out,
                                cloud_from_scan(view, points_of(recipe), id.tubes, recipe.output.properties));
@@ -63,7 +64,7 @@ std::vector<std::string> paths_of(const Recipe& recipe, const CaseId& id) {
       paths.push_back(file_of(id, kind, extension, scanner.name));
     };
     const bool is_first = paths.empty();
-    add("plys", "ply");
+    if (output.plys) add("plys", "ply");
     if (is_first) {
       paths.push_back(file_of(id, "tube_configurations", "txt"));
       if (output.worlds) paths.push_back(file_of(id, "gazebo_worlds", "world"));

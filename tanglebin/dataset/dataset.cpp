@@ -74,10 +74,17 @@ std::vector<CaseId> cases(const Dataset& dataset) {
 }
 
 Recipe recipe_of(const Dataset& dataset, const CaseId& id) {
-  return resolve(dataset.recipe, dataset.catalogue.record(id).drawn);
+  return resolve(dataset.recipe, id, dataset.catalogue.record(id).drawn);
+}
+
+void expect_clouds(const Dataset& dataset) {
+  if (dataset.recipe.output.plys) return;
+  throw InputError({(dataset.directory / "recipe.toml").string(), 0, "output.plys"},
+                   "false, so the dataset has no clouds", "true; generate a dataset with clouds");
 }
 
 CaseData read_case(const Dataset& dataset, const CaseId& id) {
+  expect_clouds(dataset);
   const CaseRecord record = dataset.catalogue.record(id);
   CheckedFile cloud = open_checked(dataset.directory, record, "plys", "ply", dataset.recipe.scanner_name);
   CheckedFile tubes = open_checked(dataset.directory, record, "tube_configurations", "txt");

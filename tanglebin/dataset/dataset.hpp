@@ -47,8 +47,11 @@ struct CaseData {
   std::vector<Tube> tubes;
 };
 
-/// Reads the cloud and the configuration of a finished case. Throws InputError naming the file that is
-/// missing, has another checksum than in the manifest, or cannot be read.
+/// Throws InputError naming the recipe's setting if the dataset was made without clouds.
+void expect_clouds(const Dataset& dataset);
+
+/// Reads the cloud and the configuration of a finished case. Throws InputError if the dataset has no clouds,
+/// and naming the file that is missing, has another checksum than in the manifest, or cannot be read.
 CaseData read_case(const Dataset& dataset, const CaseId& id);
 
 }  // namespace tanglebin

@@ -45,7 +45,7 @@ MadeCase make_case(const Recipe& dataset_recipe, const CaseId& id, const CaseWri
   const std::vector<DrawnNumber> drawn = draw(dataset_recipe, id);
   const auto [recipe, scene] = [&] {
     try {
-      Recipe resolved = resolve(dataset_recipe, drawn);
+      Recipe resolved = resolve(dataset_recipe, id, drawn);
       Scene simulated = simulate(resolved, id, stop_if_asked);
       return std::pair{std::move(resolved), std::move(simulated)};
     } catch (const InputError& error) {  // no valid recipe or scene; the next case may have one

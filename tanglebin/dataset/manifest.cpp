@@ -32,6 +32,30 @@ void expect_id_first(const CaseId& id, const std::string& json, const std::strin
   }
 }
 
+void add_drawn(const std::vector<DrawnNumber>& drawn, Json& json) {
+  for (const auto& [path, value, tube] : drawn) {
+    if (tube == 0) {
+      json["drawn"][path] = value;
+      continue;
+    }
+    Json& tubes = json["drawn_tubes"];
+    while (tubes.size() < static_cast<std::size_t>(tube)) tubes.push_back(Json::object());
+    tubes.back()[path] = value;
+  }
+}
+
+std::vector<DrawnNumber> drawn_numbers(const JsonRecord& record) {
+  std::vector<DrawnNumber> drawn;
+  const auto add = [&](const JsonRecord& numbers, int tube) {
+    for (const std::string& path : numbers.fields()) drawn.push_back({path, numbers.number(path), tube});
+  };
+  if (record.has("drawn")) add(record.object("drawn"), 0);
+  if (!record.has("drawn_tubes")) return drawn;
+  int tube = 0;
+  for (const JsonRecord& numbers : record.objects("drawn_tubes")) add(numbers, ++tube);
+  return drawn;
+}
+
 }  // namespace
 
 std::string to_json(const CaseRecord& record) {
@@ -43,7 +67,7 @@ std::string to_json(const CaseRecord& record) {
   for (const ScannerRecord& scanner : record.scanners) {
     json["scanners"].push_back({{"name", scanner.name}, {"points", scanner.points}});
   }
-  for (const DrawnNumber& drawn : record.drawn) json["drawn"][drawn.path] = drawn.value;
+  add_drawn(record.drawn, json);
   json["rejected"] = Json::array();
   for (const Rejection& rejection : record.rejections) {
     json["rejected"].push_back({{"seed", seed_text(rejection.seed)},
@@ -88,10 +112,7 @@ CaseRecord case_record(const std::string& json, const std::string& file, std::si
       record.scanners.push_back({scanner.text("name"), scanner.whole_number("points")});
     }
   }
-  if (value.has("drawn")) {
-    const JsonRecord drawn = value.object("drawn");
-    for (const std::string& path : drawn.fields()) record.drawn.push_back({path, drawn.number(path)});
-  }
+  record.drawn = drawn_numbers(value);
   expect_id_first(record.id, json, file, line);
   return record;
 }

@@ -46,8 +46,9 @@ std::size_t points_of(const CaseRecord& record, const std::string& path) {
 
 std::string text_of(const std::vector<DrawnNumber>& drawn) {
   std::string text;
-  for (const auto& [path, value] : drawn)
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", path, value);
+  for (const auto& [path, value, tube] : drawn)
+    text += fmt::format("{}{}{} = {}", text.empty() ? "" : ", ",
+                        tube == 0 ? "" : fmt::format("tube {}: ", tube), path, value);
   return text.empty() ? "none" : text;
 }
 
@@ -79,10 +80,7 @@ public:
     if (record_.seed != seed) {
       add(case_name(), fmt::format("seed: found {:016x}, expected {:016x}", record_.seed, seed));
     }
-    const auto is_same = [](const DrawnNumber& a, const DrawnNumber& b) {
-      return a.path == b.path && a.value == b.value;
-    };
-    if (!std::ranges::equal(record_.drawn, drawn, is_same)) {
+    if (record_.drawn != drawn) {
       add(case_name(), fmt::format("drawn: found {}, expected {}", text_of(record_.drawn), text_of(drawn)));
     }
   }
@@ -166,7 +164,7 @@ private:
         add(path,
             fmt::format("tube {}: found a radius of {} m, expected {} m", tube.id, tube.radius, kind.radius));
       }
-      tube.mass = kind.mass;  // the format does not carry it
+      tube.mass = mass_of(tube, kind);  // the format does not carry it
     }
     tubes_ = std::move(tubes);
   }
@@ -226,7 +224,7 @@ std::string fault_of_png(const std::string& bytes, int width, int height) {
 std::vector<DatasetFault> faults_of_case(const fs::path& directory, const Recipe& recipe,
                                          const CaseRecord& record, bool rest) {
   const std::vector<DrawnNumber> drawn = draw(recipe, record.id);
-  const Recipe resolved = resolve(recipe, drawn);
+  const Recipe resolved = resolve(recipe, record.id, drawn);
   Inspection inspection(directory, resolved, record);
   inspection.inspect_numbers(drawn);
   inspection.inspect_files();

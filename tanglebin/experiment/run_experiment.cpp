@@ -66,6 +66,7 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
                                  int jobs, const RunObserver& observer) {
   for (const Method method : settings.methods) expect_available(method);
   expect_free(directory, dataset, settings);
+  expect_clouds(dataset);
   make_directories(directory);
   const Journal journal(directory);
   claim(directory, dataset, settings);

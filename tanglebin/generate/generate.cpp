@@ -122,7 +122,9 @@ std::vector<Eigen::Vector3d> draw_endpoints(Rng& rng, const std::vector<double>&
 Tube draw_tube(Rng& rng, const TubeSpec& spec, int id) {
   for (int draw = 0; draw < max_draws; ++draw) {
     Tube tube = draw_once(rng, spec, id);
-    if (!passes_through_itself(tube)) return tube;
+    if (passes_through_itself(tube)) continue;
+    tube.mass = mass_of(tube, spec);
+    return tube;
   }
   throw InputError({.file = {}, .line = 0, .field = "tube"},
                    "each of " + std::to_string(max_draws) +

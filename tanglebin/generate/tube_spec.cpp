@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/geometry/mass_properties.hpp"
 
 namespace tanglebin {
 namespace {
@@ -29,6 +30,15 @@ double degrees(double radians) {
 void expect_angle(double radians, const std::string& field) {
   expect(radians >= 0 && radians <= std::numbers::pi, field, fmt::format("{:.6g}°", degrees(radians)),
          "an angle from 0 to 180°");
+}
+
+void validate_mass(const TubeSpec& spec, const std::string& where) {
+  if (spec.density == 0) {
+    expect_positive(spec.mass, where + ".mass");
+    return;
+  }
+  expect_positive(spec.density, where + ".density");
+  expect(spec.mass == 0, where + ".mass", fmt::format("{}", spec.mass), "0, because there is a density");
 }
 
 void validate_sizes(const SegmentSpec& segment, const std::string& where) {
@@ -69,9 +79,13 @@ void validate_nodes(const SegmentSpec& segment, const std::string& where, std::s
 
 }  // namespace
 
+double mass_of(const Tube& tube, const TubeSpec& spec) {
+  return spec.density == 0 ? spec.mass : spec.density * mass_properties(tube).volume;
+}
+
 void validate(const TubeSpec& spec, const std::string& where) {
   expect_positive(spec.radius, where + ".radius");
-  expect_positive(spec.mass, where + ".mass");
+  validate_mass(spec, where);
   expect(!spec.segments.empty(), where + ".segment", "none", "at least one segment");
   const int nodes = static_cast<int>(spec.segments.size()) + 1;
   std::set<int> reached{1};

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tanglebin/geometry/segment.hpp"
+#include "tanglebin/geometry/tube.hpp"
 
 namespace tanglebin {
 
@@ -23,17 +24,22 @@ struct SegmentSpec : Segment {
 /// chains; several make a tree, as in the published set C. A segment's first cylinder takes any direction.
 struct TubeSpec {
   double radius = 0.0125;  ///< m
-  double mass = 0.5;       ///< kg
+  double mass = 0.5;       ///< kg; 0 with a density
+  double density = 0;      ///< kg/m³ of the solid that fills the tube's surface; 0 with a mass
   std::vector<SegmentSpec> segments = std::vector<SegmentSpec>(1);
 
   bool operator==(const TubeSpec&) const = default;
 };
 
+/// The mass of a tube drawn from `spec`, kg: the spec's, or its density times the volume of the solid that
+/// fills the tube's surface.
+double mass_of(const Tube& tube, const TubeSpec& spec);
+
 /// Throws InputError if no tube can be made of a spec. Names the field (`where`.radius, or
 /// `where`.segment[1].length for the second of several segments) and the reason: cylinders_max ·
 /// cylinder_length_min > length, min > max, an angle outside [0, π], a size or mass that is not positive,
-/// more than 1000 cylinders, a segment that starts nowhere or closes a loop, named nodes that are not 1, 2,
-/// …, segments + 1.
+/// both a mass and a density, more than 1000 cylinders, a segment that starts nowhere or closes a loop, named
+/// nodes that are not 1, 2, …, segments + 1.
 void validate(const TubeSpec& spec, const std::string& where = "tube");
 
 }  // namespace tanglebin

@@ -2,15 +2,19 @@
 
 #include <fmt/format.h>
 
-#include "tanglebin/recipe/recipe.hpp"
+#include "tanglebin/recipe/randomization.hpp"
 
 namespace tanglebin {
 
 std::vector<CaseId> cases(const Recipe& recipe) {
   std::vector<CaseId> result;
-  for (const SetRecipe& set : recipe.sets)
+  for (const SetRecipe& set : recipe.sets) {
     for (const int tubes : set.tubes)
       for (int number = 1; number <= set.cases; ++number) result.push_back({set.name, tubes, number});
+    if (!set.drawn_tubes) continue;
+    for (int number = 1; number <= set.cases; ++number)
+      result.push_back({set.name, draw_number_of_tubes(recipe, set, number), number});
+  }
   return result;
 }
 

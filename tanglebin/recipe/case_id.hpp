@@ -19,7 +19,8 @@ struct CaseId {
   auto operator<=>(const CaseId&) const = default;
 };
 
-/// Every case of a valid recipe: by set, number of tubes (both in the recipe's order) and number.
+/// Every case of a valid recipe: by set, number of tubes (both in the recipe's order) and number. Cases that
+/// draw their number of tubes are by set and number.
 std::vector<CaseId> cases(const Recipe& recipe);
 
 /// The folder of the cases of one set and number of tubes, as in the published data: "A10".

@@ -6,29 +6,30 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/text.hpp"
 
 namespace tanglebin {
 namespace {
 
-constexpr std::array<std::string_view, 3> keys_of_ranges{"min", "max", "one_of"};
-
 // The keys whose values are whole numbers, and are drawn as such.
-constexpr std::array<std::string_view, 9> whole_keys{"width",         "height",         "sub_rays",
-                                                     "iterations",    "iterations_max", "cylinders_min",
-                                                     "cylinders_max", "from",           "to"};
+constexpr std::array<std::string_view, 10> whole_keys{
+    "tubes",          "width",         "height",        "sub_rays", "iterations",
+    "iterations_max", "cylinders_min", "cylinders_max", "from",     "to"};
 
 // The other settings of a lens follow from these where they are not given.
 constexpr std::array<std::string_view, 4> leading_lens_keys{"width", "height", "hfov_deg", "focal_length_px"};
 constexpr std::array<std::string_view, 4> following_lens_keys{"fx", "fy", "cx", "cy"};
-constexpr std::array<std::string_view, 4> pose_keys{"position", "rotation_wxyz", "rotation_matrix",
-                                                    "look_at"};
+constexpr std::array<std::string_view, 7> pose_keys{"position", "rotation_wxyz", "rotation_matrix", "look_at",
+                                                    "distance", "tilt_deg",      "azimuth_deg"};
 // Of a lens or pose that is partly random, the fixed settings that the camera at its lowest does not tell.
 constexpr std::array<std::string_view, 6> fixed_lens_keys{"hfov_deg", "focal_length_px", "fx", "fy", "cx",
                                                           "cy"};
-constexpr std::array<std::string_view, 2> fixed_pose_keys{"rotation_wxyz", "look_at"};
+constexpr std::array<std::string_view, 5> fixed_pose_keys{"rotation_wxyz", "look_at", "distance", "tilt_deg",
+                                                          "azimuth_deg"};
 
 bool holds(const auto& keys, std::string_view key) {
   return std::ranges::find(keys, key) != keys.end();
@@ -37,7 +38,8 @@ bool holds(const auto& keys, std::string_view key) {
 bool is_random(const toml::node& node) {
   const toml::table* table = node.as_table();
   return table != nullptr && table->is_inline() &&
-         std::ranges::any_of(keys_of_ranges, [&](std::string_view key) { return table->contains(key); });
+         std::ranges::any_of(keys_of_random_numbers,
+                             [&](std::string_view key) { return table->contains(key); });
 }
 
 /// Is it a random number or an array with one?
@@ -56,8 +58,22 @@ struct Range {
   const toml::table& table;
   const TomlSource& source;
 
+  bool has(std::string_view key) const { return table.contains(key); }
+
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
     throw InputError({source.file(), source.line(path), path}, found, expected);
+  }
+
+  /// Throws unless the table has all these keys and, besides, only optional ones.
+  void expect_keys(const std::vector<std::string_view>& required,
+                   const std::vector<std::string_view>& optional) const {
+    constexpr const char* forms =
+        "{ min = NUMBER, max = NUMBER }, { mean = NUMBER, sigma = NUMBER } or { one_of = [NUMBERS] }";
+    for (const std::string_view key : required)
+      if (!has(key)) fail(fmt::format("a table without {}", key), forms);
+    for (const auto& [key, value] : table)
+      if (!holds(required, key.str()) && !holds(optional, key.str()))
+        fail(fmt::format("a table with {}", excerpt(key.str())), forms);
   }
 };
 
@@ -68,10 +84,14 @@ double finite_number(const toml::node& node, const Range& range) {
   return *value;
 }
 
+double any_finite_number(const toml::node& node, const Range& range) {
+  const auto value = node.value<double>();
+  if (!value || !std::isfinite(*value)) range.fail(description(node), "finite numbers");
+  return *value;
+}
+
 RandomNumber read_limits(const Range& range) {
-  if (!range.table.contains("min") || !range.table.contains("max") || range.table.size() != 2) {
-    range.fail("a table", "{ min = NUMBER, max = NUMBER } or { one_of = [NUMBERS] }");
-  }
+  range.expect_keys({"min", "max"}, {"per"});
   RandomNumber number;
   number.min = finite_number(*range.table.get("min"), range);
   number.max = finite_number(*range.table.get("max"), range);
@@ -81,9 +101,35 @@ RandomNumber read_limits(const Range& range) {
   return number;
 }
 
+// An end that is not given is so far from the mean that hardly a number is beyond it.
+constexpr double sigmas_to_an_end = 4;
+// With closer ends, most numbers would be rejected.
+constexpr double least_sigmas_between_ends = 0.1;
+
+RandomNumber read_normal(const Range& range) {
+  range.expect_keys({"mean", "sigma"}, {"min", "max", "per"});
+  RandomNumber number;
+  number.mean = any_finite_number(*range.table.get("mean"), range);
+  number.sigma = any_finite_number(*range.table.get("sigma"), range);
+  if (!(number.sigma > 0)) range.fail(fmt::format("sigma = {}", number.sigma), "a positive sigma");
+  const double reach = sigmas_to_an_end * number.sigma;
+  const bool whole = is_whole(range.path);
+  number.min = whole ? std::floor(number.mean - reach) : number.mean - reach;
+  number.max = whole ? std::ceil(number.mean + reach) : number.mean + reach;
+  if (const toml::node* min = range.table.get("min")) number.min = finite_number(*min, range);
+  if (const toml::node* max = range.table.get("max")) number.max = finite_number(*max, range);
+  const bool is_mean_inside = number.min <= number.mean && number.mean <= number.max;
+  if (!is_mean_inside || number.max - number.min < least_sigmas_between_ends * number.sigma) {
+    range.fail(fmt::format("min = {:.6g} and max = {:.6g}", number.min, number.max),
+               fmt::format("the mean, {:.6g}, between ends a tenth of sigma or more apart", number.mean));
+  }
+  return number;
+}
+
 RandomNumber read_list(const Range& range) {
+  range.expect_keys({"one_of"}, {"per"});
   const toml::array* values = range.table.get("one_of")->as_array();
-  if (values == nullptr || values->empty() || range.table.size() != 1) {
+  if (values == nullptr || values->empty()) {
     range.fail("a table", "{ one_of = [NUMBERS] } with at least one number");
   }
   RandomNumber number;
@@ -92,8 +138,30 @@ RandomNumber read_list(const Range& range) {
   return number;
 }
 
-RandomNumber read_random_number(const Range& range) {
-  return range.table.contains("one_of") ? read_list(range) : read_limits(range);
+bool is_of_a_tube(std::string_view path) {
+  return path.starts_with("set[") &&
+         (path.find("].tube.") != std::string_view::npos || path.find("].tube[") != std::string_view::npos);
+}
+
+bool read_per_tube(const Range& range) {
+  const toml::node* per = range.table.get("per");
+  if (per == nullptr) return false;
+  const auto name = per->value<std::string_view>();
+  if (name != "scene" && name != "tube")
+    range.fail(fmt::format("per = {}", description(*per)), "per = \"scene\" or \"tube\"");
+  if (name == "tube" && !is_of_a_tube(range.path))
+    range.fail("per = 'tube'", "per = \"scene\", because this number is not a tube's");
+  return name == "tube";
+}
+
+RandomNumber read_number(const Range& range) {
+  const auto read = [&] {
+    if (range.has("one_of")) return read_list(range);
+    return range.has("mean") || range.has("sigma") ? read_normal(range) : read_limits(range);
+  };
+  RandomNumber number = read();
+  number.per_tube = read_per_tube(range);
+  return number;
 }
 
 // Settings
@@ -102,10 +170,13 @@ RandomNumber read_random_number(const Range& range) {
 void add_settings_of(const toml::node& node, const std::string& path, std::vector<RandomSetting>& settings) {
   for_each_node(node, path, [&](const std::string& place, const toml::node& value) {
     if (is_random(value)) {
-      settings.push_back({place, read_random_number({place, *value.as_table(), {}})});
+      settings.push_back({place, read_random_number(*value.as_table(), place, {})});
       return false;
     }
-    if (value.is_number()) settings.push_back({place, *value.value<double>()});
+    if (const auto* real = value.as_floating_point()) settings.push_back({place, real->get()});
+    if (const auto* integer = value.as_integer()) {
+      settings.push_back({place, static_cast<double>(integer->get())});
+    }
     return true;
   });
 }
@@ -122,7 +193,9 @@ void add_settings(const toml::table& table, const std::string& path, std::vector
   for (const auto& [key, node] : table) {
     const bool goes_with =
         (lens && holds(fixed_lens_keys, key.str())) || (pose && holds(fixed_pose_keys, key.str()));
-    if (goes_with || holds_random(node)) add_settings_of(node, path_of(path, key.str()), settings);
+    const bool is_setting = !is_number_of_tubes(path_of(path, key.str()));
+    if (goes_with || (is_setting && holds_random(node)))
+      add_settings_of(node, path_of(path, key.str()), settings);
   }
 }
 
@@ -165,21 +238,6 @@ void put_number(double number, bool whole, const Put& put) {
   }
 }
 
-toml::table random_table(const RandomNumber& number, bool whole) {
-  toml::table table;
-  table.is_inline(true);
-  if (number.one_of.empty()) {
-    put_number(number.min, whole, [&](auto value) { table.insert("min", value); });
-    put_number(number.max, whole, [&](auto value) { table.insert("max", value); });
-    return table;
-  }
-  toml::array values;
-  for (const double choice : number.one_of)
-    put_number(choice, whole, [&](auto value) { values.push_back(value); });
-  table.insert("one_of", std::move(values));
-  return table;
-}
-
 toml::table& table_of(toml::table& tree, const RandomSetting& setting) {
   toml::table* table = toml::at_path(tree, table_in(setting.path)).as_table();
   if (table == nullptr) throw InputError({"", 0, setting.path}, "no table of the recipe");
@@ -193,6 +251,7 @@ void make_way(toml::table& table, std::string_view key) {
     for (const std::string_view other : following_lens_keys) table.erase(other);
   }
   if (key == "rotation_wxyz" || key == "look_at") table.erase("rotation_matrix");
+  if (key == "distance") table.erase("position");
 }
 
 /// Puts a value under its key or, the elements of an array coming in order, at the array's end.
@@ -228,8 +287,8 @@ void put_setting(toml::table& table, const RandomSetting& setting) {
 
 void replace_random(toml::node& node, const std::string& path, const NumbersByPath& numbers) {
   const auto replace = [&](toml::node& inner, const std::string& place, const auto& put) {
-    if (is_random(inner)) {
-      put_number(numbers.at(place), is_whole(place), put);
+    if (const auto number = numbers.find(place); number != numbers.end()) {
+      put_number(number->second, is_whole(place), put);
     } else {
       replace_random(inner, place, numbers);
     }
@@ -266,12 +325,41 @@ bool is_whole(std::string_view path) {
          !path.starts_with("bin.");  // "bin.height" is a length
 }
 
+bool is_number_of_tubes(std::string_view path) {
+  return path.starts_with("set[") && path.ends_with("].tubes");
+}
+
+RandomNumber read_random_number(const toml::table& table, const std::string& path, const TomlSource& source) {
+  return read_number({path, table, source});
+}
+
+toml::table random_table(const RandomNumber& number, bool whole) {
+  toml::table table;
+  table.is_inline(true);
+  if (number.per_tube) table.insert("per", "tube");
+  if (number.sigma > 0) {
+    table.insert("mean", number.mean);
+    table.insert("sigma", number.sigma);
+  }
+  if (number.one_of.empty()) {
+    put_number(number.min, whole, [&](auto value) { table.insert("min", value); });
+    put_number(number.max, whole, [&](auto value) { table.insert("max", value); });
+    return table;
+  }
+  toml::array values;
+  for (const double choice : number.one_of)
+    put_number(choice, whole, [&](auto value) { values.push_back(value); });
+  table.insert("one_of", std::move(values));
+  return table;
+}
+
 std::vector<PlacedNumber> find_random_numbers(const toml::table& tree, const TomlSource& source) {
   std::vector<std::pair<toml::source_position, PlacedNumber>> found;
   for_each_node(tree, "", [&](const std::string& path, const toml::node& node) {
     if (!is_random(node)) return true;
+    if (is_number_of_tubes(path)) return false;
     found.emplace_back(node.source().begin,
-                       PlacedNumber{path, read_random_number({path, *node.as_table(), source})});
+                       PlacedNumber{path, read_random_number(*node.as_table(), path, source)});
     return false;
   });
   std::ranges::sort(found, [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -297,6 +385,16 @@ double lowest(const RandomNumber& number) {
 
 double highest(const RandomNumber& number) {
   return std::ranges::max(numbers_to_try(number));
+}
+
+double middle(const RandomNumber& number, bool whole) {
+  if (!number.one_of.empty()) {
+    std::vector<double> values = number.one_of;
+    std::ranges::sort(values);
+    return values[(values.size() - 1) / 2];
+  }
+  const double value = number.sigma > 0 ? number.mean : std::midpoint(number.min, number.max);
+  return whole ? std::clamp(std::round(value), number.min, number.max) : value;
 }
 
 std::vector<RandomSetting> random_settings(const toml::table& tree, const Recipe& recipe) {

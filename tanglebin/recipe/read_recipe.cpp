@@ -69,7 +69,7 @@ void expect_known_format(const TomlTable& root) {
 // Which cases there are, and what they follow from, is not random.
 void expect_drawable(const std::string& path, const TomlSource& source) {
   const bool structural = path == "seed" || path == "attempts" || path.ends_with(".cases") ||
-                          path.find(".tubes") != std::string::npos;
+                          path.ends_with(".weight") || path.find(".tubes") != std::string::npos;
   if (structural)
     throw InputError({source.file(), source.line(path), path}, "a random number", "a fixed one");
 }
@@ -137,9 +137,10 @@ Scanner scanner_with(const std::string& preset, const std::vector<std::string>& 
 Recipe read_recipe(std::istream& in, const std::string& name) {
   const std::string text = ascii(read_bytes(in, name));
   if (in.bad()) throw InputError({name, 0, ""}, "cannot be read");
-  const toml::table tree = parse(text, name);
-  const TomlSource source(name, tree);
+  toml::table tree = parse(text, name);
+  TomlSource source(name, tree);
   expect_known_format({source, tree, ""});
+  inherit_tube(tree, source);
   const std::vector<PlacedNumber> numbers = find_random_numbers(tree, source);
   return numbers.empty() ? read_tree(tree, source) : read_random(tree, numbers, source);
 }

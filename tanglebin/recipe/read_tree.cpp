@@ -9,6 +9,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/recipe/randomization.hpp"
 #include "tanglebin/recipe/recipe_fields.hpp"
 #include "tanglebin/recipe/recipe_tree.hpp"
 
@@ -105,11 +106,40 @@ Eigen::Matrix3d read_look_at(const TomlTable& table, const Eigen::Vector3d& posi
   return rotation;
 }
 
+// A place on a sphere about the point that the camera looks at.
+Eigen::Vector3d read_place_about(const TomlTable& table) {
+  for (const std::string_view other : {"position", "rotation_wxyz", "rotation_matrix"})
+    table.allow_one_of({other, "distance"});
+  table.require({"look_at"});
+  Eigen::Vector3d target;
+  double distance = 0;
+  double tilt_deg = 0;
+  double azimuth_deg = 0;
+  table.get("look_at", target);
+  table.get("distance", distance);
+  table.get("tilt_deg", tilt_deg);
+  table.get("azimuth_deg", azimuth_deg);
+  if (!(distance > 0)) table.fail("distance", fmt::format("{}", distance), "a positive number");
+  if (!(tilt_deg >= 0 && tilt_deg <= 180))
+    table.fail("tilt_deg", fmt::format("{}", tilt_deg), "an angle from 0 to 180");
+  const double tilt = radians_from_degrees(tilt_deg);
+  const double azimuth = radians_from_degrees(azimuth_deg);
+  return target + distance * Eigen::Vector3d(std::sin(tilt) * std::cos(azimuth),
+                                             std::sin(tilt) * std::sin(azimuth), std::cos(tilt));
+}
+
+Eigen::Vector3d read_position(const TomlTable& table, const Eigen::Vector3d& preset) {
+  Eigen::Vector3d position = preset;
+  if (table.has("tilt_deg") || table.has("azimuth_deg")) table.require({"distance"});
+  if (table.has("distance")) return read_place_about(table);
+  table.get("position", position);
+  return position;
+}
+
 void read_pose(const TomlTable& table, Camera& camera) {
   table.allow_one_of({"rotation_wxyz", "rotation_matrix", "look_at"});
-  Eigen::Vector3d position = camera.pose.translation();
+  const Eigen::Vector3d position = read_position(table, camera.pose.translation());
   Eigen::Matrix3d rotation = camera.pose.linear();
-  table.get("position", position);
   table.get("rotation_matrix", rotation);
   if (table.has("rotation_wxyz")) {
     Eigen::Vector4d wxyz;
@@ -125,11 +155,11 @@ void read_pose(const TomlTable& table, Camera& camera) {
 }
 
 Keys scanner_keys() {
-  return all(
-      {{"preset", "hfov_deg", "focal_length_px", "position", "rotation_wxyz", "rotation_matrix", "look_at"},
-       keys(camera_size_fields),
-       keys(camera_lens_fields),
-       keys(sensor_fields)});
+  return all({{"preset", "hfov_deg", "focal_length_px", "position", "rotation_wxyz", "rotation_matrix",
+               "look_at", "distance", "tilt_deg", "azimuth_deg"},
+              keys(camera_size_fields),
+              keys(camera_lens_fields),
+              keys(sensor_fields)});
 }
 
 Scanner read_scanner(const TomlTable& table) {
@@ -171,8 +201,9 @@ void read_scanners(const TomlTable& root, Recipe& recipe) {
 }
 
 OutputSettings read_output(const TomlTable& table) {
-  table.allow(all({keys(output_fields), keys(property_fields)}));
+  table.allow(all({keys(cloud_fields), keys(output_fields), keys(property_fields)}));
   OutputSettings settings;
+  read_fields(table, cloud_fields, settings);
   read_fields(table, output_fields, settings);
   read_fields(table, property_fields, settings.properties);
   return settings;
@@ -194,11 +225,24 @@ SegmentSpec read_segment(const TomlTable& table) {
   return segment;
 }
 
+void read_mass(const TomlTable& table, TubeSpec& spec) {
+  table.allow_one_of({"mass", "density"});
+  if (!table.has("density")) {
+    table.require({"mass"});
+    read_fields(table, mass_fields, spec);
+    return;
+  }
+  spec.mass = 0;
+  read_fields(table, density_fields, spec);
+  if (!(spec.density > 0)) table.fail("density", fmt::format("{}", spec.density), "a positive number");
+}
+
 TubeSpec read_tube(const TomlTable& table) {
-  table.allow(all({keys(tube_fields), keys(segment_fields), {"segment"}}));
-  table.require({"radius", "mass"});
+  table.allow(all({{"weight"}, tube_keys()}));
+  table.require({"radius"});
   TubeSpec spec;
   read_fields(table, tube_fields, spec);
+  read_mass(table, spec);
   if (!table.has("segment")) {
     spec.segments = {read_segment(table)};
     return spec;
@@ -214,12 +258,31 @@ TubeSpec read_tube(const TomlTable& table) {
 }
 
 // One [set.tube], or a [[set.tube]] for each kind.
-std::vector<TubeSpec> read_kinds(const TomlTable& set) {
-  if (!set.is_array("tube")) return {read_tube(set.table("tube"))};
-  std::vector<TubeSpec> kinds;
-  for (const TomlTable& table : set.tables("tube")) kinds.push_back(read_tube(table));
-  if (kinds.empty()) set.fail("tube", "none", "at least one [[set.tube]]");
-  return kinds;
+std::vector<TomlTable> tables_of_kinds(const TomlTable& set) {
+  if (!set.is_array("tube")) return {set.table("tube")};
+  std::vector<TomlTable> tables = set.tables("tube");
+  if (tables.empty()) set.fail("tube", "none", "at least one [[set.tube]]");
+  return tables;
+}
+
+// Either all kinds have a weight or none has.
+std::vector<double> read_weights(const std::vector<TomlTable>& kinds) {
+  if (std::ranges::none_of(kinds, [](const TomlTable& kind) { return kind.has("weight"); })) return {};
+  std::vector<double> weights(kinds.size());
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    kinds[i].require({"weight"});
+    kinds[i].get("weight", weights[i]);
+  }
+  return weights;
+}
+
+// A list, or a random number that each case draws.
+void read_numbers_of_tubes(const TomlTable& table, SetRecipe& set) {
+  if (const toml::table* number = table.raw_table("tubes")) {
+    set.drawn_tubes = read_random_number(*number, table.path_of("tubes"), table.source());
+  } else {
+    table.get("tubes", set.tubes);
+  }
 }
 
 SetRecipe read_set(const TomlTable& table) {
@@ -227,14 +290,17 @@ SetRecipe read_set(const TomlTable& table) {
   table.require({"name", "tubes", "tube"});
   SetRecipe set;
   table.get("name", set.name);
-  table.get("tubes", set.tubes);
+  read_numbers_of_tubes(table, set);
   table.get("cases", set.cases);
-  set.kinds = read_kinds(table);
+  const std::vector<TomlTable> kinds = tables_of_kinds(table);
+  set.kinds.clear();
+  for (const TomlTable& kind : kinds) set.kinds.push_back(read_tube(kind));
+  set.weights = read_weights(kinds);
   return set;
 }
 
 Recipe read_root(const TomlTable& root) {
-  root.allow({"format", "seed", "attempts", "bin", "scanner", "settle", "output", "set"});
+  root.allow({"format", "seed", "attempts", "bin", "scanner", "settle", "output", "tube", "set"});
   Recipe recipe;
   root.get("seed", recipe.seed);
   root.get("attempts", recipe.attempts);

@@ -7,8 +7,23 @@
 
 namespace tanglebin {
 
+std::size_t kind_in_turn(const SetRecipe& set, int tube) {
+  return static_cast<std::size_t>(tube - 1) % set.kinds.size();
+}
+
 const TubeSpec& kind_of(const SetRecipe& set, int tube) {
-  return set.kinds[static_cast<std::size_t>(tube - 1) % set.kinds.size()];
+  return set.each_tube.empty() ? set.kinds[kind_in_turn(set, tube)]
+                               : set.each_tube.at(static_cast<std::size_t>(tube - 1));
+}
+
+std::vector<int> numbers_of_tubes(const SetRecipe& set) {
+  if (!set.drawn_tubes) return set.tubes;
+  const RandomNumber& number = *set.drawn_tubes;
+  std::vector<int> all(number.one_of.begin(), number.one_of.end());
+  if (all.empty()) {
+    for (int tubes = static_cast<int>(number.min); tubes <= number.max; ++tubes) all.push_back(tubes);
+  }
+  return all;
 }
 
 const SetRecipe& set_named(const Recipe& recipe, const std::string& name) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
@@ -21,8 +22,9 @@ namespace tanglebin {
 /// The latest format of recipes that read_recipe() reads, and the one that write_recipe() writes.
 inline constexpr int recipe_format = 1;
 
-/// Which files a case gets besides its cloud (PLY) and configuration (text).
+/// Which files a case gets besides its configuration (text).
 struct OutputSettings {
+  bool plys = true;              ///< plys/N.ply, which experiments need
   bool bin_points = true;        ///< the cloud includes the bin's points, label 0
   bool worlds = true;            ///< gazebo_worlds/N.world
   bool pcds = false;             ///< pcds/N.pcd, organized
@@ -42,11 +44,15 @@ struct Scanner {
   bool operator==(const Scanner&) const = default;
 };
 
-/// A number that is drawn anew for each case: from `min` to `max`, or from a list.
+/// A number that is drawn anew for each case, or for each tube of a case: uniform or normal from `min` to
+/// `max`, or from a list.
 struct RandomNumber {
   double min = 0;
   double max = 0;
   std::vector<double> one_of{};  ///< if not empty, the number is one of these
+  double mean = 0;               ///< of the normal distribution, from min to max
+  double sigma = 0;              ///< its standard deviation; 0: the distribution is uniform
+  bool per_tube = false;         ///< only of a kind of tubes
 
   bool operator==(const RandomNumber&) const = default;
 };
@@ -62,8 +68,9 @@ struct RandomSetting {
 
 /// A number drawn for a case.
 struct DrawnNumber {
-  std::string path;  ///< of its RandomSetting
-  double value;
+  std::string path;  ///< of its RandomSetting; "set[0].tube" for a tube's kind, drawn by weight
+  double value;      ///< a kind's is 0, 1, …
+  int tube = 0;      ///< the tube it is drawn for (1, 2, …); 0 if it holds for all of the scene
 
   bool operator==(const DrawnNumber&) const = default;
 };
@@ -71,10 +78,17 @@ struct DrawnNumber {
 /// Which tubes, and how many cases with how many of them.
 struct SetRecipe {
   std::string name;        ///< letters, digits, '-' and '_': part of a folder's name
-  std::vector<int> tubes;  ///< numbers of tubes, each with its own folder
-  int cases = 20;          ///< for each number of tubes
+  std::vector<int> tubes;  ///< numbers of tubes, each with its own folder; empty if each case draws its own
+  std::optional<RandomNumber> drawn_tubes{};  ///< what each case draws its number of tubes from
+  int cases = 20;                             ///< for each number of tubes, or in all if they are drawn
   /// In turn: with two kinds, tubes 1, 3, 5, … of a case are of the first.
   std::vector<TubeSpec> kinds = std::vector<TubeSpec>(1);
+  /// If not empty, the kinds are not in turn but drawn for each tube, with probabilities proportional to
+  /// these.
+  std::vector<double> weights{};
+  /// Of a case whose tubes differ: what each tube is drawn from. Then `kinds` have the middles of the numbers
+  /// that are drawn for each tube. resolve() sets it; recipes are written without it.
+  std::vector<TubeSpec> each_tube{};
 
   bool operator==(const SetRecipe&) const = default;
 };
@@ -97,8 +111,14 @@ struct Recipe {
   bool operator==(const Recipe&) const = default;
 };
 
-/// The kind of tube number `tube` (1, 2, …) of a case.
+/// The kind, 0, 1, …, of tube number `tube` (1, 2, …) of a case where kinds take turns.
+std::size_t kind_in_turn(const SetRecipe& set, int tube);
+
+/// What tube number `tube` (1, 2, …) of a case is drawn from. `set` is of the case's own recipe (resolve()).
 const TubeSpec& kind_of(const SetRecipe& set, int tube);
+
+/// Every number of tubes that a case of a set may have.
+std::vector<int> numbers_of_tubes(const SetRecipe& set);
 
 /// The set of this name. Throws InputError if there is none.
 const SetRecipe& set_named(const Recipe& recipe, const std::string& name);
@@ -106,13 +126,13 @@ const SetRecipe& set_named(const Recipe& recipe, const std::string& name);
 /// The first scanner and the further ones.
 std::vector<Scanner> scanners(const Recipe& recipe);
 
-/// The numbers of a case, drawn from the recipe's seed, set, number of tubes, case and key. Numbers of other
-/// sets' tubes are left out.
+/// The numbers of a case, drawn from the recipe's seed, set, number of tubes, case and key: those of the
+/// scene, then those of each tube in turn. Numbers of other sets' tubes are left out.
 std::vector<DrawnNumber> draw(const Recipe& recipe, const CaseId& id);
 
 /// The recipe of a case: with the numbers drawn for it, and nothing random. Throws InputError if a number is
 /// missing, or if the numbers together make no valid recipe.
-Recipe resolve(const Recipe& recipe, const std::vector<DrawnNumber>& drawn);
+Recipe resolve(const Recipe& recipe, const CaseId& id, const std::vector<DrawnNumber>& drawn);
 
 /// Throws InputError naming the field that makes the recipe invalid: whatever the bin, the scanner, the
 /// settling and the tubes reject, sets that share a name or a folder, numbers out of range (docs/formats.md),

@@ -90,6 +90,9 @@ inline constexpr std::tuple settle_fields{
     Field{"overlap_max", &SettleSettings::overlap_max},
     Field{"time_limit", &SettleSettings::time_limit},
 };
+inline constexpr std::tuple cloud_fields{
+    Field{"plys", &OutputSettings::plys},
+};
 inline constexpr std::tuple output_fields{
     Field{"bin_points", &OutputSettings::bin_points},
     Field{"worlds", &OutputSettings::worlds},
@@ -104,7 +107,12 @@ inline constexpr std::tuple property_fields{
 };
 inline constexpr std::tuple tube_fields{
     Field{"radius", &TubeSpec::radius},
+};
+inline constexpr std::tuple mass_fields{
     Field{"mass", &TubeSpec::mass},
+};
+inline constexpr std::tuple density_fields{
+    Field{"density", &TubeSpec::density},
 };
 inline constexpr std::tuple segment_end_fields{
     Field{"from", &Segment::from},
@@ -142,6 +150,11 @@ inline Keys all(std::initializer_list<Keys> lists) {
   Keys result;
   for (const Keys& list : lists) result.insert(result.end(), list.begin(), list.end());
   return result;
+}
+
+/// The keys of [tube], and of a [set.tube] but for its weight.
+inline Keys tube_keys() {
+  return all({keys(tube_fields), keys(mass_fields), keys(density_fields), keys(segment_fields), {"segment"}});
 }
 
 }  // namespace tanglebin

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <string>
 
 #include "tanglebin/recipe/recipe.hpp"
 #include "tanglebin/recipe/toml_table.hpp"
@@ -11,6 +13,10 @@ namespace tanglebin {
 /// Reads and validates a tree without random numbers.
 Recipe read_tree(const toml::table& tree, const TomlSource& source);
 
+/// Gives all kinds of tubes of a tree the keys of its [tube] that they do not have, and removes [tube].
+/// Throws InputError for a [tube] that is no table, or that has an unknown key.
+void inherit_tube(toml::table& tree, TomlSource& source);
+
 /// Reads the one [scanner] of a recipe.
 Scanner read_single_scanner(const TomlTable& table);
 
@@ -20,6 +26,9 @@ void validate_at(const TomlSource& source, const std::function<void()>& call);
 /// The inverse of read_tree(): every value, presets spelled out. Random numbers are tables { min, max } or
 /// { one_of }.
 toml::table tree_of(const Recipe& recipe);
+
+/// The path of a set's kind of tubes: "set[0].tube" if there is only one, or "set[0].tube[1]".
+std::string path_of_kind(const Recipe& recipe, std::size_t set, std::size_t kind);
 
 /// Puts the recipe's random settings into the order in which they are written.
 void sort_as_written(Recipe& recipe);

@@ -73,6 +73,13 @@ std::size_t TomlSource::line(const std::string& path) const {
   return found == lines_.end() ? 0 : found->second;
 }
 
+void TomlSource::take_lines(const std::string& path, const std::string& original) {
+  std::map<std::string, std::size_t> copies;
+  for (const auto& [place, line] : lines_)
+    if (place.starts_with(original)) copies.emplace(path + place.substr(original.size()), line);
+  lines_.merge(copies);
+}
+
 TomlTable::TomlTable(const TomlSource& source, const toml::table& table, std::string path)
     : source_(source), table_(table), path_(std::move(path)) {}
 
@@ -151,6 +158,11 @@ TomlTable TomlTable::table(std::string_view key) const {
   if (node == nullptr) return {source_, none, path_of(key)};
   if (!node->is_table()) fail(key, description(*node), fmt::format("a table [{}]", key));
   return {source_, *node->as_table(), path_of(key)};
+}
+
+const toml::table* TomlTable::raw_table(std::string_view key) const {
+  const toml::node* node = find(key);
+  return node == nullptr ? nullptr : node->as_table();
 }
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key) const {

@@ -45,6 +45,9 @@ public:
   /// Where the value of this path begins; 0 if unknown.
   std::size_t line(const std::string& path) const;
 
+  /// Gives a value, and everything in it, the lines of another, of which it is a copy.
+  void take_lines(const std::string& path, const std::string& original);
+
 private:
   std::string file_;
   std::map<std::string, std::size_t> lines_;
@@ -56,6 +59,9 @@ class TomlTable {
 public:
   /// `path` is the table's own: "set[0].tube", empty for the root.
   TomlTable(const TomlSource& source, const toml::table& table, std::string path);
+
+  /// The path of a key in this table.
+  std::string path_of(std::string_view key) const { return tanglebin::path_of(path_, key); }
 
   bool has(std::string_view key) const { return find(key) != nullptr; }
 
@@ -83,6 +89,9 @@ public:
   /// The table under `key`; an empty one if there is none.
   TomlTable table(std::string_view key) const;
 
+  /// The table under `key` as it is; nullptr if there is none.
+  const toml::table* raw_table(std::string_view key) const;
+
   /// The tables of the array under `key`, if any.
   std::vector<TomlTable> tables(std::string_view key) const;
 
@@ -90,6 +99,7 @@ public:
   bool is_array(std::string_view key) const { return has(key) && find(key)->is_array(); }
 
   const std::string& file() const { return source_.file(); }
+  const TomlSource& source() const { return source_; }
 
   /// Where a key's value begins; for a missing key, where the table begins.
   std::size_t line(std::string_view key) const;
@@ -98,7 +108,6 @@ public:
 
 private:
   const toml::node* find(std::string_view key) const { return table_.get(key); }
-  std::string path_of(std::string_view key) const { return tanglebin::path_of(path_, key); }
 
   // A node, the key that errors name (an array element's is the array's), and the node's own path.
   struct Value {

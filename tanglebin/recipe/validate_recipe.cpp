@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -13,13 +14,14 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/recipe/case_id.hpp"
-#include "tanglebin/recipe/recipe.hpp"
+#include "tanglebin/recipe/randomization.hpp"
 
 namespace tanglebin {
 namespace {
 
 constexpr std::size_t longest_name = 64;
 constexpr int most_tubes = 1000;                // in a case
+constexpr double most_weight = 1e6;             // of a kind of tubes
 constexpr std::int64_t most_cases = 1'000'000;  // in a recipe
 
 void expect(bool holds, const std::string& field, const std::string& found, const std::string& expected) {
@@ -40,14 +42,27 @@ void validate_name(const std::string& name, const std::string& field) {
          excerpt(name), fmt::format("1 to {} letters, digits, '-' and '_'", longest_name));
 }
 
+void expect_number_of_tubes(double number, const std::string& field) {
+  expect(number >= 1 && number <= most_tubes && number == std::floor(number), field,
+         fmt::format("{}", number), fmt::format("a number of tubes from 1 to {}", most_tubes));
+}
+
 void validate_numbers_of_tubes(const std::vector<int>& tubes, const std::string& field) {
   expect(!tubes.empty(), field, "none", "at least one number of tubes");
   std::set<int> seen;
   for (const int number : tubes) {
-    expect(number >= 1 && number <= most_tubes, field, fmt::format("{}", number),
-           fmt::format("a number of tubes from 1 to {}", most_tubes));
+    expect_number_of_tubes(number, field);
     expect(seen.insert(number).second, field, fmt::format("{} twice", number), "different numbers");
   }
+}
+
+void validate_tubes(const SetRecipe& set, const std::string& field) {
+  if (!set.drawn_tubes) {
+    validate_numbers_of_tubes(set.tubes, field);
+    return;
+  }
+  expect(set.tubes.empty(), field, "a list and a random number", "one of them");
+  for (const double number : numbers_to_try(*set.drawn_tubes)) expect_number_of_tubes(number, field);
 }
 
 // The longest straight piece that can be drawn: one cylinder beside the shortest others.
@@ -77,9 +92,20 @@ void validate_fit(const TubeSpec& spec, const Bin& bin, const std::string& where
   }
 }
 
+void validate_weights(const SetRecipe& set, const std::string& where) {
+  expect(set.weights.empty() || set.weights.size() == set.kinds.size(), where + ".tube",
+         fmt::format("{} weights", set.weights.size()), "none, or one for each kind");
+  for (std::size_t i = 0; i < set.weights.size(); ++i) {
+    const std::string kind = set.kinds.size() == 1 ? where + ".tube" : fmt::format("{}.tube[{}]", where, i);
+    const bool valid = set.weights[i] > 0 && set.weights[i] <= most_weight;
+    expect(valid, kind + ".weight", fmt::format("{}", set.weights[i]),
+           fmt::format("more than 0 and at most {}", most_weight));
+  }
+}
+
 void validate_set(const SetRecipe& set, const Bin& bin, const std::string& where) {
   validate_name(set.name, where + ".name");
-  validate_numbers_of_tubes(set.tubes, where + ".tubes");
+  validate_tubes(set, where + ".tubes");
   expect(set.cases >= 1, where + ".cases", fmt::format("{}", set.cases), "at least 1");
   expect(!set.kinds.empty(), where + ".tube", "none", "at least one kind of tube");
   for (std::size_t i = 0; i < set.kinds.size(); ++i) {
@@ -87,6 +113,7 @@ void validate_set(const SetRecipe& set, const Bin& bin, const std::string& where
     validate(set.kinds[i], kind);
     validate_fit(set.kinds[i], bin, kind);
   }
+  validate_weights(set, where);
 }
 
 // "A" with 11 tubes and "A1" with 1 would share the folder A11.
@@ -96,9 +123,9 @@ void validate_folders(const std::vector<SetRecipe>& sets) {
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const std::string& name = sets[i].name;
     expect(names.insert(name).second, place(i) + ".name", excerpt(name) + " twice", "unique names");
-    for (const int tubes : sets[i].tubes) {
+    for (const int tubes : numbers_of_tubes(sets[i])) {
       const auto [known, is_new] = folders.emplace(folder_name(name, tubes), name);
-      expect(is_new, place(i) + ".tubes",
+      expect(is_new || known->second == name, place(i) + ".tubes",
              fmt::format("{}, whose folder {} also belongs to set {}", tubes, known->first,
                          excerpt(known->second)),
              "different folders");
@@ -109,7 +136,8 @@ void validate_folders(const std::vector<SetRecipe>& sets) {
 void validate_number_of_cases(const std::vector<SetRecipe>& sets) {
   std::int64_t total = 0;
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    total += static_cast<std::int64_t>(sets[i].tubes.size()) * sets[i].cases;
+    const std::size_t counts = sets[i].drawn_tubes ? 1 : sets[i].tubes.size();
+    total += static_cast<std::int64_t>(counts) * sets[i].cases;
     expect(total <= most_cases, place(i) + ".cases", fmt::format("{} cases in total", total),
            fmt::format("at most {}", most_cases));
   }

@@ -92,8 +92,10 @@ std::vector<Section> sections(const toml::table& tree) {
   add_all(root, "bin", "bin", fixed(keys(bin_fields)), nothing);
   add_all(root, "scanner", "scanner", scanner_order, nothing);
   add_all(root, "settle", "settle", fixed(keys(settle_fields)), nothing);
-  add_all(root, "output", "output", fixed(all({keys(output_fields), keys(property_fields)})), nothing);
-  const Keys tube = all({keys(tube_fields), keys(segment_fields)});
+  add_all(root, "output", "output",
+          fixed(all({keys(cloud_fields), keys(output_fields), keys(property_fields)})), nothing);
+  const Keys tube =
+      all({{"weight"}, keys(tube_fields), keys(mass_fields), keys(density_fields), keys(segment_fields)});
   const Keys segment = all({keys(segment_end_fields), keys(segment_fields)});
   add_all(root, "set", "set", fixed({"name", "tubes", "cases"}), [&](const Section& set) {
     add_all(set, "tube", "set.tube", fixed(tube), [&](const Section& kind) {
@@ -115,10 +117,11 @@ std::string array_text(const toml::array& array) {
 }
 
 std::string random_text(const toml::table& number) {
-  if (const toml::node* values = number.get("one_of"))
-    return fmt::format("{{ one_of = {} }}", value_text(*values));
-  return fmt::format("{{ min = {}, max = {} }}", value_text(*number.get("min")),
-                     value_text(*number.get("max")));
+  std::vector<std::string> entries;
+  for (const std::string_view key : keys_of_random_numbers)
+    if (const toml::node* value = number.get(key))
+      entries.push_back(fmt::format("{} = {}", key, value_text(*value)));
+  return fmt::format("{{ {} }}", fmt::join(entries, ", "));
 }
 
 std::string value_text(const toml::node& node) {
@@ -131,12 +134,17 @@ std::string value_text(const toml::node& node) {
   return random_text(*node.as_table());
 }
 
+/// What a reader of this setting should know.
+std::string_view comment_on(const std::string& path) {
+  return path == "bin.friction" ? "  # of tubes on the bin, if less than settle.friction" : "";
+}
+
 std::string text_of(const toml::table& tree) {
   std::string text = "# A resolved recipe: every value is here, presets are spelled out.\n";
   for (const Section& section : sections(tree)) {
     if (!section.header.empty()) text += fmt::format("\n{}\n", section.header);
     for (const auto& [key, value] : entries(section))
-      text += fmt::format("{} = {}\n", key, value_text(value));
+      text += fmt::format("{} = {}{}\n", key, value_text(value), comment_on(path_of(section.path, key)));
   }
   return text;
 }

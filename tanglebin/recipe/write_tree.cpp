@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -92,12 +95,18 @@ toml::table scanner_table(const Scanner& scanner) {
 
 toml::table output_table(const OutputSettings& output) {
   toml::table table = table_of(output_fields, output);
+  if (!output.plys) put_fields(table, cloud_fields, output);
   if (output.properties != PointProperties{}) put_fields(table, property_fields, output.properties);
   return table;
 }
 
 toml::table tube_table(const TubeSpec& spec) {
   toml::table table = table_of(tube_fields, spec);
+  if (spec.density == 0) {
+    put_fields(table, mass_fields, spec);
+  } else {
+    put_fields(table, density_fields, spec);
+  }
   if (spec.segments.size() == 1) {
     put_fields(table, segment_fields, spec.segments.front());
     return table;
@@ -112,17 +121,27 @@ toml::table tube_table(const TubeSpec& spec) {
   return table;
 }
 
+toml::table kind_table(const SetRecipe& set, std::size_t kind) {
+  toml::table table = tube_table(set.kinds[kind]);
+  if (!set.weights.empty()) table.insert("weight", set.weights[kind]);
+  return table;
+}
+
 toml::table set_table(const SetRecipe& set) {
   toml::table table;
   table.insert("name", set.name);
-  table.insert("tubes", array_of(set.tubes));
+  if (set.drawn_tubes) {
+    table.insert("tubes", random_table(*set.drawn_tubes, true));
+  } else {
+    table.insert("tubes", array_of(set.tubes));
+  }
   table.insert("cases", set.cases);
   if (set.kinds.size() == 1) {
-    table.insert("tube", tube_table(set.kinds.front()));
+    table.insert("tube", kind_table(set, 0));
     return table;
   }
   toml::array kinds;
-  for (const TubeSpec& kind : set.kinds) kinds.push_back(tube_table(kind));
+  for (std::size_t i = 0; i < set.kinds.size(); ++i) kinds.push_back(kind_table(set, i));
   table.insert("tube", std::move(kinds));
   return table;
 }
@@ -139,6 +158,11 @@ void put_scanners(toml::table& tree, const Recipe& recipe) {
 }
 
 }  // namespace
+
+std::string path_of_kind(const Recipe& recipe, std::size_t set, std::size_t kind) {
+  const std::string path = fmt::format("set[{}].tube", set);
+  return recipe.sets[set].kinds.size() == 1 ? path : fmt::format("{}[{}]", path, kind);
+}
 
 toml::table tree_of(const Recipe& recipe) {
   toml::table tree;

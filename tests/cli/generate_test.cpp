@@ -76,6 +76,40 @@ TEST_F(Generate, MakesTheRecipesCasesAndSaysSo) {
   EXPECT_EQ(files_below(out()).size(), 9 * 3 + 5U);
 }
 
+TEST_F(Generate, ADryRunWritesNothingAndSaysWhatToExpect) {
+  const auto result = run_program("generate " + recipe_.string() + " --dry-run --jobs 2");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out,
+              testing::ContainsRegex("^set A: 6 cases, about .* of one processor's time and .* MB\n"
+                                     "set B: 3 cases, .*\nin all: 9 cases, about .* with --jobs 2 and "));
+  EXPECT_THAT(result.out,
+              HasSubstr("warning: scanner: a tube of set A on the floor is only 1.7 pixels across"));
+  EXPECT_EQ(files_below(directory_.path()).size(), 1U) << "only the recipe";
+}
+
+TEST_F(Generate, ADryRunShowsTheFirstCase) {
+  const auto result =
+      run_program("generate " + recipe_.string() + " --dry-run --json --set B --picture " + out("b.png"));
+  EXPECT_EQ(result.status, 0);
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["cases"], 3);
+  EXPECT_EQ(json["sets"]["B"]["cases"], 3);
+  EXPECT_GT(json["bytes"], 1000);
+  EXPECT_GT(json["processor_seconds"], 0);
+  EXPECT_EQ(json["warnings"].size(), 2U) << "few pixels, for each set of the recipe";
+  EXPECT_THAT(bytes_of(directory_ / "b.png"), StartsWith("\x89PNG"));
+}
+
+TEST_F(Generate, NeedsADirectoryUnlessItIsADryRun) {
+  const auto without = run_program("generate " + recipe_.string());
+  EXPECT_EQ(without.status, 64);
+  EXPECT_THAT(without.err, HasSubstr("--out is required"));
+  const auto picture = run_program("generate " + recipe_.string() + " --out " + out() + " --picture a.png");
+  EXPECT_EQ(picture.status, 64);
+  EXPECT_THAT(picture.err, HasSubstr("--picture requires --dry-run"));
+}
+
 TEST_F(Generate, MakesOnlyTheCasesAskedForAndGoesOnLater) {
   const auto first = run_program(command("--set A --tubes 2 --cases 2-3 --json"));
   EXPECT_EQ(first.status, 0);

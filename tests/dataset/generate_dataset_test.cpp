@@ -14,6 +14,7 @@
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/dataset/verify_dataset.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/ply.hpp"
 #include "tanglebin/runs/file_lock.hpp"
@@ -114,6 +115,47 @@ TEST(GenerateDataset, NumbersThatAreDrawnStandInTheManifestAndDependOnNoWorker) 
     EXPECT_FALSE(read_case(dataset, id).cloud.points.empty());
   }
   EXPECT_EQ(heights.size(), 2U);
+}
+
+TEST(GenerateDataset, EachTubeMayBeDrawnFromNumbersOfItsOwn) {
+  const TemporaryDirectory directory;
+  const Recipe recipe = recipe_of(
+      "[scanner]\nwidth = 240\nheight = 150\n"
+      "[tube]\nradius = { mean = 0.01, sigma = 0.001, per = \"tube\" }\ndensity = 1200\nlength = 0.4\n"
+      "bend_max_deg = 30\n"
+      "[[set]]\nname = \"A\"\ntubes = [3]\ncases = 2\n"
+      "[[set.tube]]\nweight = 2\n[[set.tube]]\nweight = 1\nlength = { min = 0.2, max = 0.3 }\n");
+  generate(recipe, directory.path(), 2);
+  EXPECT_THAT(verify_dataset(directory.path(), {.jobs = 1, .rest = true}).faults, testing::IsEmpty());
+
+  const Dataset dataset = read_dataset(directory.path());
+  std::set<double> radii;
+  for (const CaseId& id : cases(dataset)) {
+    const SetRecipe set = recipe_of(dataset, id).sets[0];
+    for (const Tube& tube : read_case(dataset, id).tubes) {
+      EXPECT_EQ(tube.radius, kind_of(set, tube.id).radius);
+      radii.insert(tube.radius);
+    }
+    EXPECT_EQ(set.kinds[0].radius, 0.01) << "what is known of the kind";
+  }
+  EXPECT_EQ(radii.size(), 6U);
+}
+
+TEST(GenerateDataset, CloudsMayBeLeftOut) {
+  const TemporaryDirectory directory;
+  Recipe recipe =
+      recipe_of("[scanner]\nwidth = 240\nheight = 150\n[output]\nplys = false\ndepths = true\n" + small_set);
+  generate(recipe, directory.path());
+  const auto files = files_below(directory.path());
+  EXPECT_FALSE(files.contains("A2/plys/1.ply"));
+  EXPECT_TRUE(files.contains("A2/depths/1.png"));
+  EXPECT_THAT(verify_dataset(directory.path(), {}).faults, testing::IsEmpty());
+  EXPECT_EQ(complaint([&] {
+              read_case(read_dataset(directory.path()), {"A", 2, 1});
+            }),
+            (directory / "recipe.toml").string() +
+                ": output.plys: found false, so the dataset has no clouds, expected true; generate a dataset "
+                "with clouds");
 }
 
 TEST(GenerateDataset, WritesThePublishedLayoutAndAManifestOfIt) {

@@ -33,6 +33,29 @@ TEST(Manifest, ACaseReadsBackAsItWas) {
   EXPECT_EQ(to_json(case_record(line, "manifest.jsonl", 1)), line);
 }
 
+TEST(Manifest, WhatWasDrawnForATubeStandsInItsPlace) {
+  CaseRecord record = example_record();
+  record.drawn = {
+      {"bin.height", 0.2}, {"set[0].tube", 1, 1}, {"set[0].tube[1].radius", 0.01, 1}, {"set[0].tube", 0, 3}};
+  const std::string line = to_json(record);
+  EXPECT_THAT(
+      line,
+      testing::HasSubstr(
+          R"("drawn":{"bin.height":0.2},)"
+          R"("drawn_tubes":[{"set[0].tube":1.0,"set[0].tube[1].radius":0.01},{},{"set[0].tube":0.0}],)"));
+  EXPECT_EQ(case_record(line, "manifest.jsonl", 1).drawn, record.drawn);
+  EXPECT_EQ(to_json(case_record(line, "manifest.jsonl", 1)), line);
+}
+
+TEST(Manifest, WhatWasDrawnForATubeIsANumber) {
+  CaseRecord record = example_record();
+  record.drawn = {{"set[0].tube.radius", 0.01, 1}};
+  std::string line = to_json(record);
+  line.replace(line.find("0.01}"), 4, "true");
+  EXPECT_THAT(test::complaint([&] { case_record(line, "manifest.jsonl", 12); }),
+              testing::StartsWith("manifest.jsonl:12: drawn_tubes[0].set[0].tube.radius: found"));
+}
+
 TEST(Manifest, TimesReadBackAsTheyWere) {
   const TimesRecord times{{"A", 10, 3}, {0.001, 0.25, 0.0125, 0.003}, 64.5};
   const std::string line = to_json(times);

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -86,6 +88,15 @@ TEST_F(RunExperiment, LeavesALineForEachRunInTheOrderOfMethodCaseAndRatio) {
       }
     }
   }
+}
+
+TEST_F(RunExperiment, NeedsClouds) {
+  const TemporaryDirectory results;
+  Dataset dataset = dataset_.read();
+  dataset.recipe.output.plys = false;
+  EXPECT_THAT(error_of([&] { run_experiment(dataset, settings_, cases(dataset), results / "none", 1); }),
+              HasSubstr("recipe.toml: output.plys: found false, so the dataset has no clouds"));
+  EXPECT_FALSE(std::filesystem::exists(results / "none"));
 }
 
 TEST_F(RunExperiment, ALineHasWhatModellingAndScoringTheCaseGive) {

@@ -65,6 +65,16 @@ TEST(KnownScene, HasEachKindOfTubesOfItsSet) {
   EXPECT_EQ(count_ends(known.kinds[1].segments), 3);
 }
 
+TEST(KnownScene, KnowsKindsOfTubesNotEachTube) {
+  Recipe recipe = test::small_recipe();
+  TubeSpec other = recipe.sets[0].kinds[0];
+  other.radius = 0.011;
+  recipe.sets[0].each_tube = {other, other, other};
+  const KnownScene known = known_scene(recipe, {"A", 3, 1});
+  ASSERT_EQ(known.kinds.size(), 1U);
+  EXPECT_EQ(known.kinds[0].radius, recipe.sets[0].kinds[0].radius);
+}
+
 TEST(ScoreModel, LooksAtThePointsThatTheFilterLeftAlone) {
   const CaseData data{"1.ply", cloud_of({0, 1, 1, 1, 2, 2}), tubes(2)};
   const Model model{.tubes = tubes(2), .labels = {1, 2, 2, -1, 1, -1}, .filtered = {0, 1, 2, 4}, .steps = {}};

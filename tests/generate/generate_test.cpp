@@ -328,6 +328,18 @@ TEST(DrawTube, NeverPassesThroughItself) {
   }
 }
 
+TEST(DrawTube, HasTheMassOfASolidOfItsDensity) {
+  TubeSpec spec;
+  spec.mass = 0;
+  spec.density = 1000;
+  spec.segments = {{{1, 2, 0.3}, 1, 1, 0.1, 0, 0}};
+  Rng rng(1);
+  const double r = spec.radius;
+  const double volume =
+      pi * r * r * 0.3 + 4 * pi * r * r * r / 3;  // a cylinder and a hemisphere at either end
+  EXPECT_NEAR(draw_tube(rng, spec, 1).mass, 1000 * volume, 1e-6);
+}
+
 // Three cylinders of one length, each folded back onto the one before.
 TEST(DrawTube, GivesUpWhereEveryTubePassesThroughItself) {
   TubeSpec spec;

@@ -19,10 +19,10 @@ TubeSpec tree() {
   const auto segment = [](int from, int to, double length, int fewest, int most) {
     return SegmentSpec{{from, to, length}, fewest, most, 0.02, 0.0, 20 * degree};
   };
-  return {0.0125,
-          0.75,
-          {segment(1, 2, 0.30, 5, 10), segment(1, 3, 0.10, 2, 5), segment(1, 4, 0.10, 2, 5),
-           segment(2, 5, 0.10, 2, 5), segment(2, 6, 0.15, 2, 6)}};
+  return {.radius = 0.0125,
+          .mass = 0.75,
+          .segments = {segment(1, 2, 0.30, 5, 10), segment(1, 3, 0.10, 2, 5), segment(1, 4, 0.10, 2, 5),
+                       segment(2, 5, 0.10, 2, 5), segment(2, 6, 0.15, 2, 6)}};
 }
 
 std::string complaint(const TubeSpec& spec) {
@@ -39,7 +39,15 @@ std::string complaint_after(Change change) {
 
 TEST(TubeSpec, AcceptsThePapersChainsAndThePublishedTrees) {
   EXPECT_EQ(complaint(TubeSpec{}), "none");
+  EXPECT_EQ(complaint(TubeSpec{.mass = 0, .density = 1200}), "none");
   EXPECT_EQ(complaint(tree()), "none");
+}
+
+TEST(TubeSpec, HasEitherAMassOrADensity) {
+  EXPECT_EQ(complaint(TubeSpec{.density = 1200}),
+            "tube.mass: found 0.5, expected 0, because there is a density");
+  EXPECT_EQ(complaint(TubeSpec{.mass = 0, .density = -1}),
+            "tube.density: found -1, expected a positive number");
 }
 
 TEST(TubeSpec, AcceptsTheExtremesThatStillMakeATube) {

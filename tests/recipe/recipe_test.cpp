@@ -181,6 +181,53 @@ TEST(Recipe, SaysWhichKindOfTubesIsNone) {
             "r.toml:4: set[0].tube: found none, expected at least one [[set.tube]]");
 }
 
+TEST(Recipe, ATubesMassMayFollowFromItsDensity) {
+  std::string text = smallest;
+  text.replace(text.find("mass = 0.5"), 10, "density = 1200");
+  const Recipe recipe = read(text);
+  EXPECT_EQ(recipe.sets[0].kinds[0].density, 1200);
+  EXPECT_EQ(recipe.sets[0].kinds[0].mass, 0);
+  EXPECT_EQ(read(write(recipe)), recipe);
+  EXPECT_EQ(difference(read(smallest), recipe), "set[0].tube.density: it has nothing, this one 1200.0");
+}
+
+TEST(Recipe, SaysWhatIsWrongWithADensity) {
+  EXPECT_EQ(complaint_after("mass = 0.5", "density = -1"),
+            "r.toml:6: set[0].tube.density: found -1, expected a positive number");
+  EXPECT_EQ(complaint_after("mass = 0.5", "density = 0"),
+            "r.toml:6: set[0].tube.density: found 0, expected a positive number");
+  EXPECT_EQ(complaint_after("mass = 0.5", "mass = 0.5\ndensity = 1200"),
+            "r.toml:7: set[0].tube.density: cannot be combined with mass");
+  EXPECT_EQ(complaint_after("mass = 0.5\n", ""), "r.toml:4: set[0].tube.mass: is missing");
+}
+
+TEST(Recipe, KindsHaveWeights) {
+  std::string text = two_kinds;
+  text.replace(text.find("radius = 0.008"), 0, "weight = 3\n");
+  EXPECT_EQ(complaint(text), "r.toml:10: set[0].tube[1].weight: is missing");
+  text.replace(text.find("radius = 0.0125"), 0, "weight = 1.5\n");
+  const Recipe recipe = read(text);
+  EXPECT_THAT(recipe.sets[0].weights, ElementsAre(3, 1.5));
+  EXPECT_EQ(read(write(recipe)), recipe);
+  EXPECT_EQ(complaint_after("weight = 1.5", "weight = 0", text),
+            "r.toml:11: set[0].tube[1].weight: found 0, expected more than 0 and at most 1000000");
+  EXPECT_EQ(complaint_after("weight = 1.5", "weight = { min = 1, max = 2 }", text),
+            "r.toml:11: set[0].tube[1].weight: found a random number, expected a fixed one");
+}
+
+TEST(Recipe, CloudsMayBeLeftOut) {
+  const Recipe recipe = read("[output]\nplys = false\n" + smallest);
+  EXPECT_FALSE(recipe.output.plys);
+  EXPECT_THAT(write(recipe), HasSubstr("plys = false\n"));
+  EXPECT_EQ(read(write(recipe)), recipe);
+  EXPECT_EQ(difference(read(smallest), recipe), "output.plys: it has nothing, this one false");
+}
+
+TEST(Recipe, AWrittenOneSaysWhichFrictionCounts) {
+  EXPECT_THAT(write(read(smallest)),
+              HasSubstr("friction = 100.0  # of tubes on the bin, if less than settle.friction\n"));
+}
+
 TEST(Recipe, OverridesAPreset) {
   const Recipe recipe = read(
       "seed = 7\nattempts = 3\n[bin]\npreset = \"published\"\nheight = 1\n"
@@ -232,14 +279,95 @@ TEST(Recipe, PlacesTheScannerAnywhere) {
   EXPECT_EQ(turned.pose.translation(), camera_preset("paper").pose.translation());
 }
 
+TEST(Recipe, PlacesTheScannerAboutWhatItLooksAt) {
+  const auto camera = [](const std::string& place) {
+    return read("[scanner]\nlook_at = [0.1, 0, 0.1]\n" + place + smallest).camera;
+  };
+  const Camera above = camera("distance = 1.5\n");
+  EXPECT_TRUE(above.pose.translation().isApprox(Eigen::Vector3d(0.1, 0, 1.6)));
+  const Camera tilted = camera("distance = 2\ntilt_deg = 30\nazimuth_deg = 90\n");
+  EXPECT_TRUE(tilted.pose.translation().isApprox(Eigen::Vector3d(0.1, 1, 0.1 + std::sqrt(3))));
+  EXPECT_TRUE((tilted.pose * Eigen::Vector3d(0, 0, 2)).isApprox(Eigen::Vector3d(0.1, 0, 0.1)));
+  EXPECT_TRUE(tilted.pose.linear().col(0).isApprox(Eigen::Vector3d::UnitX()));
+}
+
+TEST(Recipe, SaysWhyTheScannerHasNoPlaceAboutWhatItLooksAt) {
+  EXPECT_EQ(complaint("[scanner]\ndistance = 1\n" + smallest), "r.toml:1: scanner.look_at: is missing");
+  EXPECT_EQ(complaint("[scanner]\nlook_at = [0, 0, 0]\ntilt_deg = 10\n" + smallest),
+            "r.toml:1: scanner.distance: is missing");
+  EXPECT_EQ(complaint("[scanner]\nlook_at = [0, 0, 0]\nposition = [0, 0, 1]\ndistance = 1\n" + smallest),
+            "r.toml:4: scanner.distance: cannot be combined with position");
+  EXPECT_EQ(complaint("[scanner]\nlook_at = [0, 0, 0]\ndistance = 0\n" + smallest),
+            "r.toml:3: scanner.distance: found 0, expected a positive number");
+  EXPECT_EQ(complaint("[scanner]\nlook_at = [0, 0, 0]\ndistance = 1\ntilt_deg = 181\n" + smallest),
+            "r.toml:4: scanner.tilt_deg: found 181, expected an angle from 0 to 180");
+}
+
+const std::string shared_tube = "[tube]\nradius = 0.0125\nmass = 0.5\nlength = 0.5\nbend_max_deg = 30\n";
+
+TEST(SharedTube, StandsInForWhatAKindDoesNotSay) {
+  const Recipe shared =
+      read(shared_tube + "[[set]]\nname = \"A\"\ntubes = [1]\n" +
+           "[[set]]\nname = \"B\"\ntubes = [1]\n[set.tube]\nbend_max_deg = 45\n" +
+           "[[set]]\nname = \"C\"\ntubes = [1]\n[[set.tube]]\n[[set.tube]]\nradius = 0.008\n");
+  const TubeSpec& tube = shared.sets[0].kinds[0];
+  EXPECT_EQ(tube, read(smallest).sets[0].kinds[0]);
+  EXPECT_EQ(shared.sets[1].kinds[0].radius, tube.radius);
+  EXPECT_EQ(shared.sets[1].kinds[0].segments[0].bend_max, 45 * degree);
+  EXPECT_EQ(shared.sets[2].kinds[0], tube);
+  EXPECT_EQ(shared.sets[2].kinds[1].radius, 0.008);
+  EXPECT_EQ(shared.sets[2].kinds[1].segments, tube.segments);
+  EXPECT_EQ(read(write(shared)), shared) << "the written recipe spells it out";
+}
+
+TEST(SharedTube, GivesWayToWhatAKindSaysInAnotherWay) {
+  const Recipe recipe = read(shared_tube + tree.substr(0, tree.find("mass")) + "density = 1000\n" +
+                             tree.substr(tree.find("[[set.tube.segment]]")));
+  EXPECT_EQ(recipe.sets[0].kinds[0].density, 1000);
+  EXPECT_EQ(recipe.sets[0].kinds[0].segments.size(), 2U);
+  const std::string shared_tree =
+      "[tube]\nradius = 0.0125\nmass = 0.75\n[[tube.segment]]\nfrom = 1\nto = 2\nlength = 0.3\nbend_max_deg "
+      "= 20\n";
+  EXPECT_EQ(read(shared_tree + smallest).sets[0].kinds[0].segments[0].length, 0.5);
+  EXPECT_EQ(read(shared_tree + "[[set]]\nname = \"A\"\ntubes = [1]\n").sets[0].kinds[0].segments[0].length,
+            0.3);
+}
+
+TEST(SharedTube, MayHaveNumbersThatAreDrawnForEachSet) {
+  const std::string text = "[tube]\nradius = { min = 0.008, max = 0.01 }\nmass = 0.5\nlength = 0.5\n" +
+                           std::string("bend_max_deg = 30\n[[set]]\nname = \"A\"\ntubes = [1]\n") +
+                           "[[set]]\nname = \"B\"\ntubes = [1]\n";
+  const Recipe recipe = read(text);
+  ASSERT_EQ(recipe.random.size(), 2U);
+  EXPECT_EQ(recipe.random[1].path, "set[1].tube.radius");
+  EXPECT_EQ(read(write(recipe)), recipe);
+}
+
+TEST(SharedTube, IsWhereItsErrorsAre) {
+  const std::string set = "[[set]]\nname = \"A\"\ntubes = [1]\n";
+  EXPECT_EQ(complaint("[tube]\nradius = 0.01\nmas = 0.5\n" + set),
+            "r.toml:3: tube: unknown key 'mas', did you mean 'mass'?");
+  EXPECT_EQ(complaint("tube = 3\n" + set), "r.toml:1: tube: found 3, expected a table [tube]");
+  EXPECT_EQ(complaint("[tube]\nradius = true\n" + set),
+            "r.toml:2: set[0].tube.radius: found true, expected a number");
+  EXPECT_EQ(complaint("[tube]\nradius = 0.01\nmass = -1\nlength = 0.5\nbend_max_deg = 3\n" + set),
+            "r.toml:3: set[0].tube.mass: found -1, expected a positive number");
+  EXPECT_EQ(complaint("[tube]\nradius = 0.01\nmass = 1\ndensity = 1\n" + set),
+            "r.toml:4: set[0].tube.density: cannot be combined with mass");
+  EXPECT_EQ(complaint("[tube]\nradius = 0.01\n" + set), "r.toml:1: set[0].tube.mass: is missing");
+  EXPECT_EQ(complaint("[tube]\nradius = { min = 2, max = 1 }\n" + set),
+            "r.toml:2: set[0].tube.radius: found min = 2 and max = 1, expected min to be at most max");
+  EXPECT_EQ(complaint("[tube]\nweight = 1\n" + set).find("r.toml:2: tube: unknown key 'weight'"), 0U);
+}
+
 TEST(Recipe, WritesEverySettingThatThereIs) {
   const std::string text = write(read(smallest));
 
   EXPECT_EQ(keys(text, "bin").size(), settings<Bin>());
   EXPECT_EQ(keys(text, "settle").size(), settings<SettleSettings>())
       << "a setting has no line in settle_fields (recipe_fields.hpp)";
-  EXPECT_EQ(keys(text, "output").size(), settings<OutputSettings>() - 1)
-      << "properties have keys of their own";
+  EXPECT_EQ(keys(text, "output").size(), settings<OutputSettings>() - 2)
+      << "properties have keys of their own, and clouds are only mentioned where they are left out";
   EXPECT_EQ(keys(write(read(tree)), "[set.tube.segment]").size(),
             settings<Segment>() + settings<SegmentSpec>() - 1)
       << "a setting has no line in segment_fields (recipe_fields.hpp)";
@@ -386,7 +514,12 @@ double any_angle(double low_degrees, double high_degrees) {
 TubeSpec any_kind() {
   TubeSpec spec;
   spec.radius = any_real(0.001, 0.1);
-  spec.mass = any_real(0.001, 10);
+  if (*rc::gen::arbitrary<bool>()) {
+    spec.mass = any_real(0.001, 10);
+  } else {
+    spec.mass = 0;
+    spec.density = any_real(1, 10000);
+  }
   spec.segments.clear();
   const int segments = *rc::gen::inRange(1, 5);
   for (int to = 2; to <= segments + 1; ++to) {
@@ -407,11 +540,21 @@ TubeSpec any_kind() {
 SetRecipe any_set(const std::string& name) {
   SetRecipe set;
   set.name = name;
-  set.tubes = *rc::gen::nonEmpty(rc::gen::unique<std::vector<int>>(rc::gen::inRange(1, 1000)));
+  if (*rc::gen::arbitrary<bool>()) {
+    set.tubes = *rc::gen::nonEmpty(rc::gen::unique<std::vector<int>>(rc::gen::inRange(1, 1000)));
+  } else {
+    const int fewest = *rc::gen::inRange(1, 1000);
+    set.drawn_tubes =
+        RandomNumber{static_cast<double>(fewest), static_cast<double>(*rc::gen::inRange(fewest, 1000)), {}};
+  }
   set.cases = *rc::gen::inRange(1, 1000);
   const int kinds = *rc::gen::inRange(1, 4);
   set.kinds.clear();
-  for (int i = 0; i < kinds; ++i) set.kinds.push_back(any_kind());
+  const bool by_weight = *rc::gen::arbitrary<bool>();
+  for (int i = 0; i < kinds; ++i) {
+    set.kinds.push_back(any_kind());
+    if (by_weight) set.weights.push_back(any_real(0.001, 100));
+  }
   return set;
 }
 
@@ -439,8 +582,13 @@ Recipe any_recipe() {
     recipe.further_scanners = {{"right", any_camera(), any_sensor()}, {"above", any_camera(), any_sensor()}};
   }
   recipe.settle.step = SettleSettings{}.step * any_real(0.5, 1);
-  recipe.output = {*rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(),
-                   *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(), any_properties()};
+  recipe.output = {*rc::gen::arbitrary<bool>(),
+                   *rc::gen::arbitrary<bool>(),
+                   *rc::gen::arbitrary<bool>(),
+                   *rc::gen::arbitrary<bool>(),
+                   *rc::gen::arbitrary<bool>(),
+                   *rc::gen::arbitrary<bool>(),
+                   any_properties()};
   // Names that end in different letters share no folder.
   recipe.sets.push_back(any_set("A"));
   if (*rc::gen::arbitrary<bool>()) recipe.sets.push_back(any_set("set-b_2x"));
@@ -448,11 +596,17 @@ Recipe any_recipe() {
 }
 
 // Makes a number random, or not; it is the lowest that can be drawn.
-void maybe_random(Recipe& recipe, const std::string& path, double lowest) {
-  const int choice = *rc::gen::inRange(0, 3);
-  const double more = any_real(lowest, lowest + 0.1);
-  if (choice == 1) recipe.random.push_back({path, RandomNumber{lowest, more, {}}});
-  if (choice == 2) recipe.random.push_back({path, RandomNumber{0, 0, {more, lowest, more}}});
+void maybe_random(Recipe& recipe, const std::string& path, double lowest, bool per_tube = false) {
+  const double more = lowest + any_real(0.01, 0.1);
+  const std::vector<RandomNumber> numbers{{.min = lowest, .max = more, .per_tube = per_tube},
+                                          {.one_of = {more, lowest, more}, .per_tube = per_tube},
+                                          {.min = lowest,
+                                           .max = more,
+                                           .mean = any_real(lowest, more),
+                                           .sigma = any_real(0.001, 0.01),
+                                           .per_tube = per_tube}};
+  const auto choice = *rc::gen::inRange<std::size_t>(0, numbers.size() + 1);
+  if (choice < numbers.size()) recipe.random.push_back({path, numbers[choice]});
 }
 
 void maybe_random_pose(Recipe& recipe, const std::string& scanner, const Eigen::Isometry3d& pose) {
@@ -475,7 +629,12 @@ void maybe_random_pose(Recipe& recipe, const std::string& scanner, const Eigen::
 }
 
 void maybe_random_kind(Recipe& recipe, const std::string& path, const TubeSpec& kind) {
-  maybe_random(recipe, path + ".mass", kind.mass);
+  const bool per_tube = *rc::gen::arbitrary<bool>();
+  if (kind.density == 0) {
+    maybe_random(recipe, path + ".mass", kind.mass, per_tube);
+  } else {
+    maybe_random(recipe, path + ".density", kind.density, per_tube);
+  }
   for (std::size_t i = 0; i < kind.segments.size(); ++i) {
     if (*rc::gen::arbitrary<bool>()) continue;
     const SegmentSpec& segment = kind.segments[i];
@@ -519,9 +678,9 @@ RC_GTEST_PROP(RecipeProperty, RandomNumbersReadBackAsTheSameValue, ()) {
   const Recipe again = read(write(recipe));
   RC_ASSERT(difference(again, recipe) == std::nullopt);
   RC_ASSERT(again == recipe);
-  const CaseId id{"A", recipe.sets[0].tubes[0], 1};
+  const CaseId id{"A", 3, 1};
   RC_ASSERT(draw(again, id) == draw(recipe, id));
-  RC_ASSERT(resolve(again, draw(again, id)) == resolve(recipe, draw(recipe, id)));
+  RC_ASSERT(resolve(again, id, draw(again, id)) == resolve(recipe, id, draw(recipe, id)));
 }
 
 RC_GTEST_PROP(RecipeProperty, DegreesComeBackAsTheSameRadians, ()) {
@@ -558,6 +717,7 @@ TEST(Recipe, OnesInTheRepositoryAreWhatTheySay) {
   EXPECT_EQ(cases(read_recipe(file("set-c.toml"))).size(), 250U);
   EXPECT_EQ(cases(read_recipe(file("mixed.toml"))).size(), 60U);
   EXPECT_EQ(cases(read_recipe(file("crowded.toml"))).size(), 50U);
+  EXPECT_EQ(cases(read_recipe(file("varied.toml"))).size(), 200U);
   const Recipe paper = read_recipe(file("paper.toml"));
   EXPECT_EQ(cases(paper).size(), 640U);
   EXPECT_EQ(paper.sets.at(0).kinds.at(0).segments.at(0).bend_max, 30 * degree);
@@ -675,11 +835,10 @@ TEST(RecipeErrors, GuessWhatAnUnknownKeyMeans) {
   EXPECT_EQ(complaint_after("to = 3", "too = 3", tree),
             "r.toml:14: set[0].tube.segment[1]: unknown key 'too', did you mean 'to'?");
   EXPECT_EQ(complaint("[output]\nply = true\n" + smallest),
-            "r.toml:2: output: unknown key 'ply', expected one of bin_points, worlds, pcds, depths, labels, "
-            "normals, intensities, mixed");
+            "r.toml:2: output: unknown key 'ply', did you mean 'plys'?");
   EXPECT_EQ(complaint("\"a\\nb\" = 1\n" + smallest),
             "r.toml:1: unknown key 'a\\x0ab', expected one of format, seed, attempts, bin, scanner, settle, "
-            "output, set");
+            "output, tube, set");
 }
 
 TEST(RecipeErrors, NameWhatIsMissing) {

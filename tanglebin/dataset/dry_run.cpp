@@ -1,0 +1,140 @@
+#include "tanglebin/dataset/dry_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/case_files.hpp"
+#include "tanglebin/recipe/doubts.hpp"
+
+namespace tanglebin {
+namespace {
+
+/// What a case took.
+struct Effort {
+  double seconds = 0;
+  double bytes = 0;
+};
+
+/// What a case of a set took, by its number of tubes.
+using Efforts = std::map<int, Effort>;
+
+Effort between(const Effort& a, const Effort& b, double share) {
+  return {a.seconds + share * (b.seconds - a.seconds), a.bytes + share * (b.bytes - a.bytes)};
+}
+
+/// Linear between the nearest numbers of tubes. There is at least one.
+Effort interpolated(const Efforts& efforts, int tubes) {
+  const auto above = efforts.lower_bound(tubes);
+  if (above == efforts.end()) return std::prev(above)->second;
+  if (above == efforts.begin()) return above->second;
+  const auto below = std::prev(above);
+  const double share = static_cast<double>(tubes - below->first) / (above->first - below->first);
+  return between(below->second, above->second, share);
+}
+
+double bytes_of(const std::vector<CaseFile>& files) {
+  double bytes = 0;
+  for (const CaseFile& file : files) bytes += static_cast<double>(file.bytes.size());
+  return bytes;
+}
+
+bool sees_a_tube(const Scan& scan) {
+  return std::ranges::any_of(scan.pixels, [](const Pixel& pixel) { return pixel.label > bin_label; });
+}
+
+/// The first case of the fewest, a middle and the largest number of tubes.
+std::vector<CaseId> samples(const std::vector<CaseId>& of_set) {
+  std::map<int, CaseId> firsts;
+  for (const CaseId& id : of_set) firsts.emplace(id.tubes, id);
+  const auto middle = std::next(firsts.begin(), static_cast<std::ptrdiff_t>(firsts.size() / 2));
+  std::vector<CaseId> ids{firsts.begin()->second, middle->second, firsts.rbegin()->second};
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+/// Makes cases and notes what they take and what is wrong with them.
+class Trial {
+public:
+  explicit Trial(const Recipe& recipe) : recipe_(recipe) {}
+
+  void doubt(const CaseId& id) {
+    try {
+      for (const std::string& doubt : doubts(resolve(recipe_, id, draw(recipe_, id)))) warn(doubt);
+    } catch (const InputError& error) {
+      warn(fmt::format("{}: {}", name_of(id), error.problem()));
+    }
+  }
+
+  void estimate(const std::vector<CaseId>& of_set) {
+    Efforts efforts;
+    for (const CaseId& id : samples(of_set)) efforts.emplace(id.tubes, effort_of(id));
+    SetEstimate estimate{.set = of_set.front().set, .cases = of_set.size()};
+    for (const CaseId& id : of_set) {
+      const Effort effort = interpolated(efforts, id.tubes);
+      estimate.seconds += effort.seconds;
+      estimate.bytes += effort.bytes;
+    }
+    result_.sets.push_back(estimate);
+  }
+
+  DryRun take() { return std::move(result_); }
+
+private:
+  void warn(const std::string& warning) {
+    if (std::ranges::find(result_.warnings, warning) == result_.warnings.end())
+      result_.warnings.push_back(warning);
+  }
+
+  void look(const Scan& scan, const std::string& scanner, const CaseId& id) {
+    if (!sees_a_tube(scan))
+      warn(fmt::format("{}: the scanner{}{} sees no tube", name_of(id), scanner.empty() ? "" : " ", scanner));
+  }
+
+  double make(const CaseId& id) {
+    Recipe resolved = resolve(recipe_, id, draw(recipe_, id));
+    Scene scene = simulate(resolved, id);
+    const double bytes = bytes_of(case_files(resolved, id, scene));
+    look(scene.scan, resolved.scanner_name, id);
+    for (std::size_t i = 0; i < scene.further_scans.size(); ++i)
+      look(scene.further_scans[i], resolved.further_scanners[i].name, id);
+    if (!result_.first) result_.first = MadeScene{std::move(resolved), std::move(scene)};
+    return bytes;
+  }
+
+  Effort effort_of(const CaseId& id) {
+    const auto start = std::chrono::steady_clock::now();
+    Effort effort;
+    try {
+      effort.bytes = make(id);
+    } catch (const InputError& error) {
+      warn(fmt::format("{}: {}", name_of(id), error.problem()));
+    }
+    effort.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return effort;
+  }
+
+  const Recipe& recipe_;
+  DryRun result_;
+};
+
+}  // namespace
+
+DryRun dry_run(const Recipe& recipe, const std::vector<CaseId>& wanted) {
+  Trial trial(recipe);
+  trial.doubt(wanted.front());
+  for (const SetRecipe& set : recipe.sets) {
+    std::vector<CaseId> of_set;
+    std::ranges::copy_if(wanted, std::back_inserter(of_set),
+                         [&](const CaseId& id) { return id.set == set.name; });
+    if (!of_set.empty()) trial.estimate(of_set);
+  }
+  return trial.take();
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,94 @@
+#include "tanglebin/recipe/doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace tanglebin {
+namespace {
+
+constexpr double largest_bin = 10;  // m
+constexpr double fewest_pixels = 4;
+// Long tubes that lie at random fill about 5.4 diameters per length of the space (Philipse, Langmuir 12,
+// 1996): for the paper's tubes a quarter.
+constexpr double most_filled = 1.0 / 3;
+
+using Doubts = std::vector<std::string>;
+
+void doubt_units(const Bin& bin, Doubts& found) {
+  const double largest = std::max({bin.length, bin.width, bin.height});
+  if (largest > largest_bin)
+    found.push_back(fmt::format("bin: {:.6g} m long, wide or high; are these millimetres?", largest));
+}
+
+bool is_in_view(const Camera& camera, const Eigen::Vector3d& point) {
+  return pixel_of(camera, point).has_value();
+}
+
+bool is_rim_in_view(const Camera& camera, const Bin& bin) {
+  for (const double x : {-bin.length / 2, bin.length / 2})
+    for (const double y : {-bin.width / 2, bin.width / 2})
+      if (!is_in_view(camera, {x, y, bin.height})) return false;
+  return true;
+}
+
+double thinnest_radius(const SetRecipe& set) {
+  return std::ranges::min(set.kinds, {}, &TubeSpec::radius).radius;
+}
+
+void doubt_pixels(const Recipe& recipe, const Camera& camera, const std::string& where, Doubts& found) {
+  const double depth = depth_of(camera, Eigen::Vector3d::Zero());
+  for (const SetRecipe& set : recipe.sets) {
+    const double pixels = std::min(camera.fx, camera.fy) * 2 * thinnest_radius(set) / depth;
+    if (pixels < fewest_pixels)
+      found.push_back(fmt::format("{}: a tube of set {} on the floor is only {:.2g} pixels across", where,
+                                  set.name, pixels));
+  }
+}
+
+void doubt_camera(const Recipe& recipe, const Camera& camera, const std::string& where, Doubts& found) {
+  const double height = camera.pose.translation().z();
+  if (height <= 0) {
+    found.push_back(fmt::format("{}: the camera is {:.6g} m below the bin's floor", where, -height));
+    return;
+  }
+  if (!is_rim_in_view(camera, recipe.bin))
+    found.push_back(fmt::format("{}: part of the bin's rim is out of the camera's view", where));
+  if (depth_of(camera, Eigen::Vector3d::Zero()) > 0) doubt_pixels(recipe, camera, where, found);
+}
+
+// Bends and ends hardly count.
+double volume(const TubeSpec& spec) {
+  double length = 0;
+  for (const SegmentSpec& segment : spec.segments) length += segment.length;
+  return std::numbers::pi * spec.radius * spec.radius * length;
+}
+
+void doubt_room(const Recipe& recipe, const SetRecipe& set, Doubts& found) {
+  const Bin& bin = recipe.bin;
+  const int tubes = std::ranges::max(numbers_of_tubes(set));
+  double sum = 0;
+  for (const TubeSpec& kind : set.kinds) sum += volume(kind);
+  const double each = sum / static_cast<double>(set.kinds.size());
+  const double filled = tubes * each / (bin.length * bin.width * bin.height);
+  if (filled > most_filled)
+    found.push_back(
+        fmt::format("set {}: {} tubes have {:.0f} % of the bin's volume; a heap fills up to about {:.0f} %",
+                    set.name, tubes, 100 * filled, 100 * most_filled));
+}
+
+}  // namespace
+
+std::vector<std::string> doubts(const Recipe& recipe) {
+  Doubts found;
+  doubt_units(recipe.bin, found);
+  for (const Scanner& scanner : scanners(recipe)) {
+    const std::string where = scanner.name.empty() ? "scanner" : fmt::format("scanner {}", scanner.name);
+    doubt_camera(recipe, scanner.camera, where, found);
+  }
+  for (const SetRecipe& set : recipe.sets) doubt_room(recipe, set, found);
+  return found;
+}
+
+}  // namespace tanglebin
