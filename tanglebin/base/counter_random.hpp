@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace tanglebin {
@@ -17,7 +18,8 @@ double normal_quantile(double p);
 
 /// Spreads all 64-bit numbers evenly over (0, 1), both ends excluded.
 constexpr double between_0_and_1(std::uint64_t bits) {
-  return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52;
+  constexpr double largest_below_1 = 1 - 0x1p-53;
+  return std::min((static_cast<double>(bits >> 11) + 0.5) * 0x1p-53, largest_below_1);
 }
 
 /// Random numbers looked up by a counter. Number i of a stream is SplitMix64's i-th output, so it does not

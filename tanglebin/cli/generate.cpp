@@ -80,6 +80,7 @@ void generate(const GenerateArguments& arguments) {
     print_dry_run(recipe, wanted, {arguments.many.jobs, arguments.json, arguments.picture});
     return;
   }
+  if (recipe.random.empty()) with_file(arguments.recipe, [&] { expect_bin_in_view(recipe); });
   if (!shard) mention_array();
   const Clock::time_point start = Clock::now();
   const FillSummary summary = [&] {

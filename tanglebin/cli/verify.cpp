@@ -13,6 +13,7 @@
 #include "tanglebin/cli/many_cases.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
+#include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/repair_dataset.hpp"
 #include "tanglebin/dataset/verify_dataset.hpp"
 
@@ -31,12 +32,12 @@ struct VerifyArguments {
 };
 
 VerifySummary verify(const VerifyArguments& arguments) {
-  const fs::path recipe = fs::path(arguments.dataset) / "recipe.toml";
+  const std::string recipe = (fs::path(arguments.dataset) / recipe_name).string();
   ProgressReport progress(arguments.progress);
   return verify_dataset(arguments.dataset,
                         {.jobs = arguments.many.jobs,
                          .rest = arguments.rest,
-                         .wanted = chosen(arguments.many, cases(read_recipe(recipe)), recipe.string())},
+                         .wanted = chosen(arguments.many, cases(recipe_in(arguments.dataset)), recipe)},
                         progress.observer());
 }
 

@@ -8,19 +8,12 @@
 namespace tanglebin {
 namespace {
 
-constexpr double largest_bin = 10;  // m
 constexpr double fewest_pixels = 4;
 // Long tubes that lie at random fill about 5.4 diameters per length of the space (Philipse, Langmuir 12,
 // 1996): for the paper's tubes a quarter.
 constexpr double most_filled = 1.0 / 3;
 
 using Doubts = std::vector<std::string>;
-
-void doubt_units(const Bin& bin, Doubts& found) {
-  const double largest = std::max({bin.length, bin.width, bin.height});
-  if (largest > largest_bin)
-    found.push_back(fmt::format("bin: {:.6g} m long, wide or high; are these millimetres?", largest));
-}
 
 bool is_in_view(const Camera& camera, const Eigen::Vector3d& point) {
   return pixel_of(camera, point).has_value();
@@ -82,7 +75,6 @@ void doubt_room(const Recipe& recipe, const SetRecipe& set, Doubts& found) {
 
 std::vector<std::string> doubts(const Recipe& recipe) {
   Doubts found;
-  doubt_units(recipe.bin, found);
   for (const Scanner& scanner : scanners(recipe)) {
     const std::string where = scanner.name.empty() ? "scanner" : fmt::format("scanner {}", scanner.name);
     doubt_camera(recipe, scanner.camera, where, found);

@@ -13,6 +13,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/geometry/view_of_bin.hpp"
 #include "tanglebin/recipe/case_id.hpp"
 #include "tanglebin/recipe/randomization.hpp"
 
@@ -147,11 +148,15 @@ void validate_number_of_cases(const std::vector<SetRecipe>& sets) {
 constexpr std::array<std::string_view, 6> folders_of_kinds{
     "plys", "pcds", "depths", "labels", "tube_configurations", "gazebo_worlds"};
 
+std::string place_of_scanner(const Recipe& recipe, std::size_t index) {
+  return recipe.scanner_name.empty() ? "scanner" : fmt::format("scanner[{}]", index);
+}
+
 // Adds to an error's field which scanner it is about.
-void validate_scanner(const Scanner& scanner, const std::string& where) {
+template <typename Check>
+void check_scanner(const std::string& where, const Check& check) {
   try {
-    validate(scanner.camera);
-    validate(scanner.sensor);
+    check();
   } catch (const InputError& error) {
     const std::string& field = error.place().field;
     throw InputError({"", 0, where + field.substr(field.find('.'))}, error.problem());
@@ -163,8 +168,11 @@ void validate_scanners(const Recipe& recipe) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Scanner& scanner = all[i];
-    const std::string where = recipe.scanner_name.empty() ? "scanner" : fmt::format("scanner[{}]", i);
-    validate_scanner(scanner, where);
+    const std::string where = place_of_scanner(recipe, i);
+    check_scanner(where, [&] {
+      validate(scanner.camera);
+      validate(scanner.sensor);
+    });
     if (all.size() == 1 && scanner.name.empty()) return;
     validate_name(scanner.name, where + ".name");
     expect(std::ranges::find(folders_of_kinds, scanner.name) == folders_of_kinds.end(), where + ".name",
@@ -175,6 +183,13 @@ void validate_scanners(const Recipe& recipe) {
 }
 
 }  // namespace
+
+void expect_bin_in_view(const Recipe& recipe) {
+  const std::vector<Scanner> all = scanners(recipe);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    check_scanner(place_of_scanner(recipe, i), [&] { validate(all[i].camera, recipe.bin); });
+  }
+}
 
 void validate(const Recipe& recipe) {
   expect(std::in_range<std::int64_t>(recipe.seed), "seed", fmt::format("{}", recipe.seed),

@@ -30,12 +30,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 volatile std::sig_atomic_t interrupted = 0;
+int first_interrupt = 0;  // of the last run
 
 /// While it lives, SIGINT and SIGTERM are only remembered, in `interrupted`.
 class InterruptGuard {
 public:
   InterruptGuard() {
     interrupted = 0;
+    first_interrupt = 0;
     struct sigaction remember {};
     remember.sa_handler = [](int signal) { interrupted = signal; };
     sigaction(SIGINT, &remember, &old_int_);
@@ -209,8 +211,6 @@ public:
     return std::ranges::any_of(workers_, [](const Worker& worker) { return worker.task.has_value(); });
   }
 
-  bool was_interrupted() const { return interrupted_at_.has_value(); }
-
   /// Throws the first error of a task that ended the run.
   void rethrow() const {
     if (!end_) return;
@@ -248,8 +248,10 @@ private:
   // What runs commands, such as timeout(1), may send a signal twice at once, which is one wish.
   void take_interrupt() {
     constexpr std::chrono::milliseconds one_wish{500};
+    const int signal = interrupted;
     interrupted = 0;
     if (!interrupted_at_) {
+      first_interrupt = signal;
       interrupted_at_ = Clock::now();
       stop();
       observer_.stopping();
@@ -381,11 +383,12 @@ bool run_in_workers(int jobs, std::size_t count, const Task& task, const Workers
   crew.hand_out_tasks();
   while (crew.is_under_way()) crew.turn();
   crew.rethrow();
-  return !crew.was_interrupted() && interrupted == 0;
+  if (first_interrupt == 0) first_interrupt = interrupted;
+  return first_interrupt == 0;
 }
 
 int interrupting_signal() {
-  return interrupted;
+  return first_interrupt;
 }
 
 }  // namespace tanglebin

@@ -251,9 +251,9 @@ TEST_F(Generate, TellsAProgramOfEachEventInALineOfJson) {
 }
 
 TEST_F(Generate, CasesWithoutAValidSceneAreToldOfAndTheOthersMade) {
-  // In a second of simulated time one tube comes to rest, twelve do not.
+  // In 0.9 s of simulated time one tube comes to rest, twelve do not.
   write_bytes(recipe_,
-              "seed = 3\nattempts = 1\n[settle]\ntime_limit = 1.0\n[scanner]\nwidth = 48\nheight = 30\n"
+              "seed = 3\nattempts = 1\n[settle]\ntime_limit = 0.9\n[scanner]\nwidth = 48\nheight = 30\n"
               "[[set]]\nname = 'A'\ntubes = [1, 12]\ncases = 2\n"
               "[set.tube]\nradius = 0.0125\nmass = 0.5\nlength = 0.5\nbend_max_deg = 30\n");
   const auto result = run_program(command("--jobs 1 --progress json"));

@@ -97,8 +97,10 @@ TEST_F(Verify, NamesOfFilesArePrintedWithoutControlCharacters) {
   EXPECT_THAT(verify().out, StartsWith("A2/plys/\\x1b[2Jnew\\nline: not in the manifest\n"));
   const std::string name = "$(printf '/no\\033[31m\\nne')";
   const ProgramResult missing = run_program("verify \"" + name + "\"");
-  EXPECT_EQ(missing.err,
-            "tanglebin: /no\\x1b[31m\\nne/recipe.toml: cannot be opened: No such file or directory\n");
+  EXPECT_EQ(
+      missing.err,
+      "tanglebin: /no\\x1b[31m\\nne: found nothing, expected the directory of a dataset from `tanglebin "
+      "generate`\n");
   EXPECT_THAT(run_program("verify \"" + name + "\" --\"" + name + "\"").err, testing::Not(HasSubstr("\x1b")));
 }
 

@@ -81,7 +81,7 @@ protected:
 TEST_F(StoredDigest, OfChainsWithEveryFormat) {
   Recipe recipe = small_recipe();
   recipe.output = {.bin_points = true, .worlds = true, .pcds = true, .depths = true, .labels = true};
-  EXPECT_EQ(digest_of(recipe), "95dcff9adaddf9618ff86eeb985aa2fddd1334dbcde1f3f56ec34199d41bb857");
+  EXPECT_EQ(digest_of(recipe), "a9a6a04758236f64be823e036683e3b140313dbaa15bd25853d228982189241e");
 }
 
 TEST_F(StoredDigest, OfTrees) {
@@ -89,7 +89,7 @@ TEST_F(StoredDigest, OfTrees) {
   recipe.camera = small_recipe().camera;
   recipe.sets[0].tubes = {2};
   recipe.sets[0].cases = 2;
-  EXPECT_EQ(digest_of(recipe), "46d6123b201343b0ff37f4cab18e63d15b271baaeff22e183c4e9f74615ff44c");
+  EXPECT_EQ(digest_of(recipe), "e42bc208b61263c08a79a3615c3704110a4f7bd4765e84f6d4c9163f397a3af9");
 }
 
 TEST_F(StoredDigest, OfAHeapInTheFullPicture) {
@@ -98,7 +98,7 @@ TEST_F(StoredDigest, OfAHeapInTheFullPicture) {
     set.tubes = {10};
     set.cases = 1;
   }
-  EXPECT_EQ(digest_of(recipe), "9ee715451ea4c26c54ed4085e924ba23b6b2cff791105994ed3518d3055c8c11");
+  EXPECT_EQ(digest_of(recipe), "01447e1dc54bf6e1a9fd862ac099aaa8e9e4f659fe71ce6cc26724ec17d481df");
 }
 
 }  // namespace

@@ -94,8 +94,9 @@ TEST_F(RunExperiment, NeedsClouds) {
   const TemporaryDirectory results;
   Dataset dataset = dataset_.read();
   dataset.recipe.output.plys = false;
-  EXPECT_THAT(error_of([&] { run_experiment(dataset, settings_, cases(dataset), results / "none", 1); }),
-              HasSubstr("recipe.toml: output.plys: found false, so the dataset has no clouds"));
+  EXPECT_THAT(
+      test::complaint([&] { run_experiment(dataset, settings_, cases(dataset), results / "none", 1); }),
+      HasSubstr("recipe.toml: output.plys: found false, so the dataset has no clouds"));
   EXPECT_FALSE(std::filesystem::exists(results / "none"));
 }
 

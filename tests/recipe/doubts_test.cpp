@@ -26,13 +26,6 @@ TEST(Doubts, ThereAreNoneAboutThePapersBinAndScanners) {
     EXPECT_THAT(doubts_about("[scanner]\npreset = \"" + preset + "\"\n"), IsEmpty()) << preset;
 }
 
-TEST(Doubts, AboutABinInMillimetres) {
-  EXPECT_THAT(
-      doubts_about("[bin]\nlength = 550\nwidth = 370\nheight = 200\n[scanner]\nposition = [0, 0, 1000]\n"
-                   "focal_length_px = 400000\n"),
-      ::testing::Contains("bin: 550 m long, wide or high; are these millimetres?"));
-}
-
 TEST(Doubts, AboutACameraThatMissesPartOfTheRim) {
   EXPECT_THAT(doubts_about("[scanner]\nhfov_deg = 15\n"),
               ElementsAre("scanner: part of the bin's rim is out of the camera's view"));

@@ -426,7 +426,7 @@ TEST(NormalNumbers, SayWhatIsWrong) {
   EXPECT_THAT(said("{ mean = 0.2, sigma = 1, min = 0.19, max = 0.21 }"),
               HasSubstr("a tenth of sigma or more apart"));
   EXPECT_EQ(said("{ mean = 0.2, sigma = 0.1 }"),
-            "r.toml:2: bin.height: found -0.200000, expected a finite positive number")
+            "r.toml:2: bin.height: found -0.2, expected a finite positive number")
       << "both ends must make a recipe";
 }
 
