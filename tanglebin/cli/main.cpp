@@ -42,7 +42,8 @@ int run(int argc, char** argv) {
   add_report(app);
   add_learn(app);
   app.footer(
-      "Exit status: 0 done, 2 bad input, 3 cases failed, 4 faults found, 5 the system refused (disk full, …),\n"
+      "Exit status: 0 done, 2 bad input, 3 cases failed, 4 faults found, 5 the system refused (disk full, "
+      "…),\n"
       "64 wrong usage, 130 and 143 interrupted, 1 an error of the program itself.");
   app.failure_message(usage_message);
   try {
