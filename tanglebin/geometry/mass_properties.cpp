@@ -134,16 +134,17 @@ const std::array<Eigen::Vector3d, azimuths>& unit_circle() {
 // Adds one capsule without the `filled` ones. Moments are about `origin`.
 void add_capsule(const Tube& tube, const Edge& edge, const Eigen::Vector3d& origin,
                  const std::vector<Capsule>& filled, Moments& moments) {
-  const auto [centre, rotation, length] = frame_of(tube, edge);
-  const Eigen::Matrix3d axes = rotation.toRotationMatrix();
+  const EdgeFrame frame = frame_of(tube, edge);
+  const Eigen::Matrix3d axes = frame.rotation.toRotationMatrix();
   std::vector<Interval> taken;
   const auto add_ring = [&](double c, double weight) {
     const double rho = tube.radius * std::sqrt(1 - c * c);
-    const double reach = length / 2 + tube.radius * c;
+    const double reach = frame.length / 2 + tube.radius * c;
     const double area = weight * tube.radius * tube.radius * c * 2 * std::numbers::pi / azimuths;
     for (const Eigen::Vector3d& outward : unit_circle()) {
       const Eigen::Vector3d across = axes * (rho * outward);
-      add_free_parts({centre - origin + across, axes.col(2)}, {-reach, reach}, area, filled, taken, moments);
+      add_free_parts({frame.centre - origin + across, axes.col(2)}, {-reach, reach}, area, filled, taken,
+                     moments);
     }
   };
   for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {  // the rule is on [−1, 1], but c is in [0, 1]
