@@ -10,7 +10,6 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <sstream>
 #include <string>
@@ -331,8 +330,9 @@ TEST(DrawnNumbersOfTubes, DoNotDependOnHowManyCasesThereAre) {
   const Recipe few = read(set_of_drawn_size("{ mean = 10, sigma = 3, min = 1 }"));
   Recipe many = few;
   many.sets[0].cases = 200;
-  const std::vector<CaseId> ids = cases(many);
-  EXPECT_TRUE(std::ranges::equal(cases(few), ids | std::views::take(100)));
+  std::vector<CaseId> first = cases(many);
+  first.resize(100);
+  EXPECT_EQ(cases(few), first);
 }
 
 TEST(DrawnNumbersOfTubes, ComeBackFromTheWrittenRecipe) {
