@@ -179,17 +179,16 @@ private:
     return first.length + gap + second.length <= length_max_;
   }
 
-  // Takes the link by the likelier of its ways. What lies on a way takes the longest to find out, and can
-  // only make the link less likely.
+  // Takes the link by the freer of its ways. What lies on a way takes the longest to find out.
   void take_if_likely(const Link& link, const FragmentEnd& from, const FragmentEnd& to) {
     if (link.features[alpha] > settings_.angle_max || weight_of(link, settings_) <= 0) return;
-    std::optional<Link> likeliest;
+    std::optional<Link> freest;
     for (const Way& way : ways_between(from, to, kind_.radius)) {
       const std::optional<Link> by_way = link_by(way, link, from, to);
-      if (by_way && (!likeliest || by_way->weight > likeliest->weight)) likeliest = by_way;
-      if (likeliest && is_free(*likeliest)) break;
+      if (by_way && (!freest || hindrances(*by_way) < hindrances(*freest))) freest = by_way;
+      if (freest && hindrances(*freest) == std::pair(0.0, 0.0)) break;
     }
-    if (likeliest) links_.push_back(*likeliest);
+    if (freest) links_.push_back(*freest);
   }
 
   // The link with the features of a way; none if it is not likely by that way.
@@ -204,8 +203,10 @@ private:
     return link.weight > 0 ? std::optional(link) : std::nullopt;
   }
 
-  static bool is_free(const Link& link) {
-    return link.features[seen_empty] == 0 && link.features[obstruction] == 0;
+  // What was seen to be empty counts first: there is no tube. The weights do not choose the way, so the
+  // weights learned do not depend on those before.
+  static std::pair<double, double> hindrances(const Link& link) {
+    return {link.features[seen_empty], link.features[obstruction]};
   }
 
   // Ignores what is near the ends: other pieces of the same tube, and overshoots of a neighbour's centre

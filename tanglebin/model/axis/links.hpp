@@ -18,8 +18,9 @@ namespace tanglebin {
 /// the ends are nearer than a radius. The features are: 1; ln(|v| + 2 mm); |v|; α; α²; angle(d1, d2); the
 /// fraction of the way on which the sensor saw past a tube; and how far other fragments obstruct the way, as
 /// the square root of the mean of Obstacles::overlap() along it, ignoring what is within a diameter of the
-/// ends. The way is straight or curved, whichever is likelier. From an end to a junction at q, α = angle(d1,
-/// v), and angle(d1, d2) is replaced by the distance of q beyond the end of its fragment, m.
+/// ends. The way is straight or curved, whichever was seen less to be empty and, if equal, is less
+/// obstructed. From an end to a junction at q, α = angle(d1, v), and angle(d1, d2) is replaced by the
+/// distance of q beyond the end of its fragment, m.
 inline constexpr std::size_t link_features = 8;
 using LinkFeatures = std::array<double, link_features>;
 
@@ -48,9 +49,9 @@ struct LinkWeights {
 
 /// Learned by `tanglebin learn` from recipes/learning.toml, rounded to four decimals.
 inline constexpr LinkWeights learned_weights = {
-    .chain_ends = {-2.1928, -3.7355, 13.1466, -9.4344, 0.3790, 2.8311, -19.9054, -17.4997},
-    .tree_ends = {2.6819, -1.6183, -14.4122, -8.7567, 0.6778, 3.8991, -13.9781, -4.9284},
-    .junction = {1.1306, -0.6139, -23.2621, -9.2667, 2.6550, -66.4809, -23.7925, 0.2086},
+    .chain_ends = {-2.2312, -3.7453, 13.2863, -9.4385, 0.3799, 2.8333, -17.6030, -17.5214},
+    .tree_ends = {2.6783, -1.6190, -14.3953, -8.7563, 0.6780, 3.8984, -13.9106, -4.9356},
+    .junction = {1.1381, -0.6121, -23.2969, -9.2636, 2.6539, -66.4758, -23.7967, 0.2102},
 };
 
 /// Where a link leads.
