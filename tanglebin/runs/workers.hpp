@@ -57,13 +57,13 @@ inline constexpr TimeLimit no_limit = TimeLimit::max();
 
 /// Runs tasks 0 … count − 1 in `jobs` forked processes. A worker gets its next task as soon as it has done
 /// the last, so a slow task delays no other. A task that throws TaskImpossible is given up. One whose worker
-/// dies, or that throws anything but an InputError or a SystemError, is tried once more and then given up. One
-/// that takes longer than `limit` is given up and its worker killed. Returns true when each task is done or
-/// given up; false after SIGINT or SIGTERM, when the running tasks are finished or stopped and the rest is
+/// dies, or that throws anything but an InputError or a SystemError, is tried once more and then given up.
+/// One that takes longer than `limit` is given up and its worker killed. Returns true when each task is done
+/// or given up; false after SIGINT or SIGTERM, when the running tasks are finished or stopped and the rest is
 /// left. Another such signal, half a second later or more, kills the workers. The same as after the first
 /// happens if a task throws InputError or SystemError, which is then thrown here, and if an observer throws.
-/// Workers end with the calling process, whatever ends it. Do not call it while other threads run: fork() does
-/// not copy them.
+/// Workers end with the calling process, whatever ends it. Do not call it while other threads run: fork()
+/// does not copy them.
 bool run_in_workers(int jobs, std::size_t count, const Task& task, const WorkersObserver& observer,
                     TimeLimit limit = no_limit);
 
