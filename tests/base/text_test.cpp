@@ -12,18 +12,24 @@ namespace tanglebin {
 namespace {
 
 TEST(Printable, LeavesTextAsItIs) {
-  EXPECT_EQ(printable("/data/Röhren – 管 🙂/1.ply: found -3"), "/data/Röhren – 管 🙂/1.ply: found -3");
+  EXPECT_EQ(printable("/data/Röhren – 管 🙂/1.ply: found -3"),
+            "/data/Röhren – 管 🙂/1.ply: found -3");
   EXPECT_EQ(printable(""), "");
 }
 
 TEST(Printable, EscapesWhatATerminalObeys) {
   EXPECT_EQ(printable("\x1b[2Ja\nb\tc\r\x7f"), "\\x1b[2Ja\\nb\\tc\\x0d\\x7f");
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a\\x00b");
-  EXPECT_EQ(printable("\xc2\x9b" "31m"), "\\xc2\\x9b31m") << "CSI in eight bits";
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m"),
+            "\\xc2\\x9b31m")
+      << "CSI in eight bits";
 }
 
 TEST(Printable, EscapesBytesThatAreNotUtf8) {
-  EXPECT_EQ(printable("a\xff" "b"), "a\\xffb");
+  EXPECT_EQ(printable("a\xff"
+                      "b"),
+            "a\\xffb");
   EXPECT_EQ(printable("\xc3"), "\\xc3") << "cut off";
   EXPECT_EQ(printable("\xc0\x8a"), "\\xc0\\x8a") << "a line feed in too many bytes";
   EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "half of a pair";

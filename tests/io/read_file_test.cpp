@@ -28,7 +28,8 @@ TEST(ReadFile, IsAllOfARegularFileOrNoneIfItIsMissing) {
   write_bytes(directory / "file", bytes);
   EXPECT_EQ(read_file(directory / "file"), bytes);
   EXPECT_EQ(read_if_there(directory / "none"), std::nullopt);
-  EXPECT_THAT(complaint([&] { read_file(directory / "none"); }), HasSubstr("none: cannot be opened: No such"));
+  EXPECT_THAT(complaint([&] { read_file(directory / "none"); }),
+              HasSubstr("none: cannot be opened: No such"));
 }
 
 TEST(ReadFile, NeitherWaitsForAPipeNorReadsADeviceOrADirectory) {
