@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/base/error.hpp"
+#include "fuzz/is_refused.hpp"
 #include "tanglebin/dataset/catalogue.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 
@@ -65,16 +65,6 @@ void read_times_and_drawn_numbers(const tanglebin::Catalogue& catalogue) {
   }
 }
 
-// An InputError is fine, but its message must fit on one line.
-template <typename Read>
-void in_one_line(const Read& read) {
-  try {
-    read();
-  } catch (const tanglebin::InputError& error) {
-    if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
-  }
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -86,9 +76,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::ofstream(directory / files[data[0] % files.size()], std::ios::binary)
       << std::string(data + 1, data + size);
   // Each reads exactly these bytes, whatever the other files contain.
-  in_one_line([&] { tanglebin::read_dataset_summary(directory); });
-  in_one_line([&] { read_times_and_drawn_numbers(tanglebin::Catalogue(directory)); });
-  in_one_line([&] { check_that_it_reads_back(tanglebin::Catalogue(directory), directory); });
+  is_refused([&] { tanglebin::read_dataset_summary(directory); });
+  is_refused([&] { read_times_and_drawn_numbers(tanglebin::Catalogue(directory)); });
+  is_refused([&] { check_that_it_reads_back(tanglebin::Catalogue(directory), directory); });
   // Readers that skip damage can still write a dataset.
   using Damage = tanglebin::Catalogue::Damage;
   check_that_it_reads_back(tanglebin::Catalogue(directory, Damage::is_passed_over), directory);

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "tanglebin/base/error.hpp"
+#include "fuzz/is_refused.hpp"
 #include "tanglebin/recipe/case_id.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 
@@ -24,19 +24,6 @@ std::string write(const tanglebin::Recipe& recipe) {
   std::ostringstream out;
   tanglebin::write_recipe(out, recipe);
   return out.str();
-}
-
-/// Calls `call` and returns true if it threw an InputError.
-template <typename Call>
-bool is_refused(Call call) {
-  try {
-    call();
-  } catch (const tanglebin::InputError& error) {
-    // Messages must fit on one line.
-    if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
-    return true;
-  }
-  return false;
 }
 
 }  // namespace

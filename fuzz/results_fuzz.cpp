@@ -6,12 +6,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
-#include "tanglebin/base/error.hpp"
+#include "fuzz/is_refused.hpp"
 #include "tanglebin/experiment/results.hpp"
 #include "tanglebin/report/results.hpp"
 
@@ -21,16 +20,6 @@ namespace fs = std::filesystem;
 
 void write(const fs::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
-}
-
-// An InputError is fine, but its message must fit on one line.
-template <typename Read>
-void in_one_line(const Read& read) {
-  try {
-    read();
-  } catch (const tanglebin::InputError& error) {
-    if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
-  }
 }
 
 }  // namespace
@@ -47,8 +36,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       directory / "experiment.json",
       R"({"version":"0","dataset_seed":1,"methods":["paper"],"ratios":[0.3],"seed":0,"recipe_sha256":"","cases":1})");
   write(directory / files[data[0] % files.size()], std::string(data + 1, data + size));
-  in_one_line([&] { tanglebin::read_results_directory(directory); });
-  in_one_line([&] { tanglebin::finished_runs(directory); });
+  is_refused([&] { tanglebin::read_results_directory(directory); });
+  is_refused([&] { tanglebin::finished_runs(directory); });
   fs::remove_all(directory);
   return 0;
 }
