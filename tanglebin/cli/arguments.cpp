@@ -10,6 +10,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/dataset/dataset.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -64,7 +65,7 @@ void write_output(const std::string& file, std::string_view bytes) {
 
 void expect_dataset(const std::string& directory) {
   const std::filesystem::path path(directory);
-  if (std::filesystem::exists(path / "recipe.toml")) return;
+  if (std::filesystem::exists(path / recipe_name)) return;
   const std::string found = !std::filesystem::exists(path)         ? "nothing"
                             : !std::filesystem::is_directory(path) ? "a file"
                                                                    : "no recipe.toml in it";

@@ -11,6 +11,7 @@
 #include "tanglebin/dataset/dry_run.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/report/picture_of_scan.hpp"
+#include "tanglebin/report/text.hpp"
 #include "tanglebin/scan/scanner.hpp"
 
 namespace tanglebin::cli {
@@ -42,17 +43,13 @@ std::string size_text(double bytes) {
   return fmt::format("{:.1f} GB", bytes / gigabyte);
 }
 
-std::string cases_text(std::size_t cases) {
-  return fmt::format("{} {}", cases, cases == 1 ? "case" : "cases");
-}
-
 void print_text(const DryRun& run, int jobs) {
   for (const SetEstimate& set : run.sets) {
-    print_out("set {}: {}, about {} of one processor's time and {}\n", set.set, cases_text(set.cases),
+    print_out("set {}: {}, about {} of one processor's time and {}\n", set.set, counted(set.cases, "case"),
               duration_text(set.seconds), size_text(set.bytes));
   }
   const SetEstimate all = sum_of(run.sets);
-  print_out("in all: {}, about {} with --jobs {} and {}\n", cases_text(all.cases),
+  print_out("in all: {}, about {} with --jobs {} and {}\n", counted(all.cases, "case"),
             duration_text(all.seconds / jobs), jobs, size_text(all.bytes));
   for (const std::string& warning : run.warnings) print_out("warning: {}\n", warning);
 }

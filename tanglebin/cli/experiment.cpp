@@ -17,6 +17,7 @@
 #include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/experiment/run_experiment.hpp"
 #include "tanglebin/experiment/summary.hpp"
+#include "tanglebin/report/text.hpp"
 #include "tanglebin/report/write_pictures.hpp"
 
 namespace tanglebin::cli {
@@ -77,10 +78,6 @@ void print_json(const ExperimentArguments& arguments, const ExperimentSummary& s
                                     {"mean", mean.mean}});
   }
   print_json_line(json);
-}
-
-std::string counted(std::size_t count, const std::string& thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
 // Over which cases a mean is: "10 tubes, 20 cases, 2 failed".

@@ -51,10 +51,6 @@ int largest_id(const std::vector<Tube>& tubes) {
   return largest;
 }
 
-bool shows_a_tube(const Scan& view) {
-  return std::ranges::any_of(view.pixels, [](const Pixel& pixel) { return pixel.label > bin_label; });
-}
-
 void warn_of_no_tube(const Camera& camera, const std::vector<Tube>& tubes) {
   Eigen::AlignedBox3d box;
   for (const Tube& tube : tubes) box.extend(bounds(tube));

@@ -52,7 +52,7 @@ std::set<Versions> made_with(const std::string& json, const std::string& file, s
 }
 
 std::optional<DatasetSummary> read_dataset_summary(const std::filesystem::path& directory) {
-  const std::filesystem::path file = directory / "dataset.json";
+  const std::filesystem::path file = directory / summary_name;
   const std::optional<std::string> text = read_if_there(file);
   if (!text) return std::nullopt;
   const JsonRecord json(*text, file.string(), 0);

@@ -44,10 +44,6 @@ double bytes_of(const std::vector<CaseFile>& files) {
   return bytes;
 }
 
-bool sees_a_tube(const Scan& scan) {
-  return std::ranges::any_of(scan.pixels, [](const Pixel& pixel) { return pixel.label > bin_label; });
-}
-
 /// The first case of the fewest, a middle and the largest number of tubes.
 std::vector<CaseId> samples(const std::vector<CaseId>& of_set) {
   std::map<int, CaseId> firsts;
@@ -92,7 +88,7 @@ private:
   }
 
   void look(const Scan& scan, const std::string& scanner, const CaseId& id) {
-    if (!sees_a_tube(scan))
+    if (!shows_a_tube(scan))
       warn(fmt::format("{}: the scanner{}{} sees no tube", name_of(id), scanner.empty() ? "" : " ", scanner));
   }
 

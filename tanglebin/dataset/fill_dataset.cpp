@@ -231,7 +231,7 @@ private:
 
   // If shards run one after the other, the manifest is not to be written after each of them.
   bool are_shards_to_come(const std::vector<fs::path>& journals) const {
-    if (!request_.shard || fs::exists(request_.directory / "dataset.json")) return false;
+    if (!request_.shard || fs::exists(request_.directory / summary_name)) return false;
     const auto begun =
         std::ranges::count_if(journals, [this](const auto& path) { return is_of_the_shards(path); });
     return begun < request_.shard->count;

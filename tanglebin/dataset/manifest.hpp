@@ -11,10 +11,11 @@
 
 namespace tanglebin {
 
-// The files of a dataset's directory that list its cases (docs/formats.md).
+// The files of a dataset's directory that list its cases, and their summary (docs/formats.md).
 inline constexpr const char* manifest_name = "manifest.jsonl";
 inline constexpr const char* times_name = "times.jsonl";
 inline constexpr const char* failed_name = "failed.jsonl";
+inline constexpr const char* summary_name = "dataset.json";
 
 /// A file in the manifest.
 struct FileRecord {

@@ -172,20 +172,19 @@ private:
 
   void check_summary() {
     if (!is_sealed()) return;
-    constexpr const char* name = "dataset.json";
     try {
       const std::optional<DatasetSummary> said = read_dataset_summary(directory_);
       if (!said) {
-        add(name, "missing");
+        add(summary_name, "missing");
       } else if (said->digest != summary_.digest) {
-        add(name, fmt::format("digest: found {}, expected {}, that of the manifest", said->digest,
-                              summary_.digest));
+        add(summary_name, fmt::format("digest: found {}, expected {}, that of the manifest", said->digest,
+                                      summary_.digest));
       } else if (said->cases != summary_.cases || said->recipe_cases != state_.size()) {
-        add(name, fmt::format("found {} of {} cases, expected {} of {}", said->cases, said->recipe_cases,
-                              summary_.cases, state_.size()));
+        add(summary_name, fmt::format("found {} of {} cases, expected {} of {}", said->cases,
+                                      said->recipe_cases, summary_.cases, state_.size()));
       }
     } catch (const InputError& error) {
-      add(name, complaint_of(error));
+      add(summary_name, complaint_of(error));
     }
   }
 
@@ -229,7 +228,7 @@ private:
 
   // Beside the folders of cases, where the user may keep files, too.
   void find_strays() {
-    const std::set<std::string> own{"recipe.toml", "dataset.json", manifest_name, times_name, failed_name};
+    const std::set<std::string> own{recipe_name, summary_name, manifest_name, times_name, failed_name};
     const std::set<std::string> kinds{".toml", ".json", ".jsonl"};
     for (const fs::directory_entry& entry : fs::directory_iterator(directory_)) {
       const std::string name = entry.path().filename().string();

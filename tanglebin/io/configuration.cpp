@@ -180,11 +180,8 @@ private:
 
   // An edge's centre, length and rotation repeat what its nodes say.
   void expect_agreement(const Edge& edge, const EdgeFrame& frame) const {
-    const Eigen::Vector3d from = tube_.nodes[edge.from].position;
-    const Eigen::Vector3d to = tube_.nodes[edge.to].position;
-    const Eigen::Vector3d midpoint = (from + to) / 2;
-    const Eigen::Vector3d along = to - from;
-    const double length = along.norm();
+    const auto [midpoint, rotation, length] = frame_of(tube_, edge);
+    const Eigen::Vector3d along = tube_.nodes[edge.to].position - tube_.nodes[edge.from].position;
     if (!((frame.centre - midpoint).norm() <= length_tolerance))
       lines_.fail(
           "cx cy cz", point(frame.centre),

@@ -29,10 +29,6 @@ bool is_of_a_wrong_path(const std::error_code& reason) {
   return std::ranges::any_of(reasons, [&](std::errc wrong) { return reason == wrong; });
 }
 
-std::error_code last_error() {
-  return {errno, std::generic_category()};
-}
-
 std::error_code write_bytes(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -171,6 +167,10 @@ fs::path obstacle(const fs::path& directory) {
 }
 
 }  // namespace
+
+std::error_code last_error() {
+  return {errno, std::generic_category()};
+}
 
 void throw_refusal(const std::filesystem::path& file, const std::string& what,
                    const std::error_code& reason) {

@@ -8,6 +8,9 @@
 
 namespace tanglebin {
 
+/// Why the last system call failed: errno.
+std::error_code last_error();
+
 /// Throws for a file or directory that the system refused to write: "file: what: reason". An InputError if
 /// the path is wrong, so that trying again would not help (no such directory, a name too long, …); otherwise
 /// a SystemError.

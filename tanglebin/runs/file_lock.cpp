@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr const char* lock_name = ".lock";
 
 [[noreturn]] void fail(const fs::path& file) {
-  throw_refusal(file, "cannot be locked", {errno, std::generic_category()});
+  throw_refusal(file, "cannot be locked", last_error());
 }
 
 int open_to_lock(const fs::path& file) {

@@ -31,10 +31,6 @@ fs::path staging_of(const fs::path& journal) {
   return journal.parent_path() / ("." + journal.stem().string() + ".unfinished");
 }
 
-std::error_code last_error() {
-  return {errno, std::generic_category()};
-}
-
 // Together with the directory: a run that removes journals of ended runs has locked that.
 std::optional<FileLock> take_lock(const fs::path& file) {
   const DirectoryLock lock(file.parent_path());

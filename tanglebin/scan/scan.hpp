@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -51,6 +52,11 @@ struct Scan {
            static_cast<std::size_t>(u - window.left);
   }
 };
+
+/// Whether a pixel of the scan is on a tube.
+inline bool shows_a_tube(const Scan& scan) {
+  return std::ranges::any_of(scan.pixels, [](const Pixel& pixel) { return pixel.label > bin_label; });
+}
 
 /// The pixel of a ray that hit nothing.
 inline Pixel empty_pixel() {
