@@ -169,8 +169,8 @@ const Catalogue::Places& Catalogue::places_of(const CaseId& id) const {
   return found->second;
 }
 
-std::string Catalogue::line_at(const CaseId& id, const Place& place) const {
-  std::string line = Reader(files_).line(place);
+std::string Catalogue::line_at(const CaseId& id, const Place& place, Reader& reader) const {
+  std::string line = reader.line(place);
   const std::string file = files_[place.file].string();
   if (const CaseId found = id_of_line(line, file, place.line); found != id) {
     throw InputError({file, place.line, ""}, name_of(found), name_of(id));
@@ -178,10 +178,10 @@ std::string Catalogue::line_at(const CaseId& id, const Place& place) const {
   return line;
 }
 
-std::optional<std::string> Catalogue::times_line(const CaseId& id) const {
+std::optional<std::string> Catalogue::times_line(const CaseId& id, Reader& reader) const {
   const Place& place = places_of(id).times;
   if (place.size == 0) return std::nullopt;
-  return line_at(id, place);
+  return line_at(id, place, reader);
 }
 
 template <typename Read>
@@ -197,13 +197,16 @@ auto Catalogue::up_to_date(const Read& read) const {
 CaseRecord Catalogue::record(const CaseId& id) const {
   return up_to_date([&](const Catalogue& catalogue) {
     const Place& place = catalogue.places_of(id).record;
-    return case_record(catalogue.line_at(id, place), catalogue.files_[place.file].string(), place.line);
+    Reader reader(catalogue.files_);
+    return case_record(catalogue.line_at(id, place, reader), catalogue.files_[place.file].string(),
+                       place.line);
   });
 }
 
 std::optional<TimesRecord> Catalogue::times(const CaseId& id) const {
   return up_to_date([&](const Catalogue& catalogue) -> std::optional<TimesRecord> {
-    const std::optional<std::string> line = catalogue.times_line(id);
+    Reader reader(catalogue.files_);
+    const std::optional<std::string> line = catalogue.times_line(id, reader);
     if (!line) return std::nullopt;
     const Place& place = catalogue.places_of(id).times;
     return times_record(*line, catalogue.files_[place.file].string(), place.line);
@@ -212,10 +215,17 @@ std::optional<TimesRecord> Catalogue::times(const CaseId& id) const {
 
 void Catalogue::for_each_times_line(const std::vector<CaseId>& order,
                                     const std::function<void(const std::string&)>& take) const {
+  const Catalogue* read = nullptr;
+  std::optional<Reader> reader;  // of the catalogue that was read last
+  const auto times_line_of = [&](const CaseId& id) {
+    return up_to_date([&](const Catalogue& catalogue) {
+      if (std::exchange(read, &catalogue) != &catalogue) reader.emplace(catalogue.files_);
+      return catalogue.times_line(id, *reader);
+    });
+  };
   for (const CaseId& id : order) {
     if (!has(id)) continue;
-    const auto line = up_to_date([&](const Catalogue& catalogue) { return catalogue.times_line(id); });
-    if (line) take(*line);
+    if (const auto line = times_line_of(id)) take(*line);
   }
 }
 
@@ -253,7 +263,7 @@ DatasetSummary Catalogue::write(const std::vector<CaseId>& order, const std::set
   } else {
     write_staged(directory_ / failed_name, failures, staging);
   }
-  write_staged(directory_ / "dataset.json", to_json(summary), staging);
+  write_staged(directory_ / summary_name, to_json(summary), staging);
   sync_directory(directory_);
   return summary;
 }

@@ -113,8 +113,8 @@ private:
   // The finished case's places. Throws InputError if it is not listed.
   const Places& places_of(const CaseId& id) const;
   // The line at a case's place. Throws InputError if it is not of this case.
-  std::string line_at(const CaseId& id, const Place& place) const;
-  std::optional<std::string> times_line(const CaseId& id) const;
+  std::string line_at(const CaseId& id, const Place& place, Reader& reader) const;
+  std::optional<std::string> times_line(const CaseId& id, Reader& reader) const;
   // What `read` returns of this catalogue, or of a later one if a run has moved the lines meanwhile.
   template <typename Read>
   auto up_to_date(const Read& read) const;

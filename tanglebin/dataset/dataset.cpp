@@ -34,16 +34,22 @@ CheckedFile open_checked(const fs::path& directory, const CaseRecord& record, st
   return {file.string(), std::istringstream(checked_bytes(directory, *listed))};
 }
 
+Recipe recipe_of_bytes(const std::string& bytes, const fs::path& file) {
+  std::istringstream in(bytes);
+  return read_recipe(in, file.string());
+}
+
 }  // namespace
 
 Recipe recipe_in(const fs::path& directory) {
   const fs::path file = directory / recipe_name;
-  std::istringstream in(read_file(file));
-  return read_recipe(in, file.string());
+  return recipe_of_bytes(read_file(file), file);
 }
 
 Dataset read_dataset(const fs::path& directory) {
-  return {directory, recipe_in(directory), sha256(read_file(directory / recipe_name)), Catalogue(directory)};
+  const fs::path file = directory / recipe_name;
+  const std::string bytes = read_file(file);
+  return {directory, recipe_of_bytes(bytes, file), sha256(bytes), Catalogue(directory)};
 }
 
 std::string checked_bytes(const fs::path& directory, const FileRecord& file) {
@@ -79,7 +85,7 @@ Recipe recipe_of(const Dataset& dataset, const CaseId& id) {
 
 void expect_clouds(const Dataset& dataset) {
   if (dataset.recipe.output.plys) return;
-  throw InputError({(dataset.directory / "recipe.toml").string(), 0, "output.plys"},
+  throw InputError({(dataset.directory / recipe_name).string(), 0, "output.plys"},
                    "false, so the dataset has no clouds", "true; generate a dataset with clouds");
 }
 

@@ -93,18 +93,14 @@ Vector3d on_curve(const FragmentEnd& first, const FragmentEnd& second, double t)
 /// A way between two ends: places on it, at even steps, without the ends.
 using Way = std::vector<Vector3d>;
 
-// The straight and the curved way.
-std::array<Way, 2> ways_between(const FragmentEnd& first, const FragmentEnd& second, double radius) {
-  const Vector3d gap = second.position - first.position;
+// The way through place(t), t in [0, 1], over a gap, m.
+template <typename Place>
+Way way_over(double gap, double radius, const Place& place) {
   constexpr double step = 0.4;  // radii
-  const int places = std::clamp(static_cast<int>(gap.norm() / (step * radius)) - 1, 1, 16);
-  std::array<Way, 2> ways;
-  for (int i = 1; i <= places; ++i) {
-    const double t = static_cast<double>(i) / (places + 1);
-    ways[0].emplace_back(first.position + t * gap);
-    ways[1].push_back(on_curve(first, second, t));
-  }
-  return ways;
+  const int places = std::clamp(static_cast<int>(gap / (step * radius)) - 1, 1, 16);
+  Way way;
+  for (int i = 1; i <= places; ++i) way.push_back(place(static_cast<double>(i) / (places + 1)));
+  return way;
 }
 
 // The mean of a measure over the places on a way.
@@ -182,11 +178,14 @@ private:
   // Takes the link by the freer of its ways. What lies on a way takes the longest to find out.
   void take_if_likely(const Link& link, const FragmentEnd& from, const FragmentEnd& to) {
     if (link.features[alpha] > settings_.angle_max || weight_of(link, settings_) <= 0) return;
-    std::optional<Link> freest;
-    for (const Way& way : ways_between(from, to, kind_.radius)) {
-      const std::optional<Link> by_way = link_by(way, link, from, to);
-      if (by_way && (!freest || hindrances(*by_way) < hindrances(*freest))) freest = by_way;
-      if (freest && hindrances(*freest) == std::pair(0.0, 0.0)) break;
+    const Vector3d gap = to.position - from.position;
+    const auto link_through = [&](const auto& place) {
+      return link_by(way_over(gap.norm(), kind_.radius, place), link, from, to);
+    };
+    std::optional<Link> freest = link_through([&](double t) -> Vector3d { return from.position + t * gap; });
+    if (!freest || hindrances(*freest) != std::pair(0.0, 0.0)) {
+      const std::optional<Link> curved = link_through([&](double t) { return on_curve(from, to, t); });
+      if (curved && (!freest || hindrances(*curved) < hindrances(*freest))) freest = curved;
     }
     if (freest) links_.push_back(*freest);
   }

@@ -56,8 +56,8 @@ std::vector<Eigen::Vector3f> points_seen(const PointCloud& cloud, const Cropped&
                                          const std::vector<std::size_t>& filtered, double ratio,
                                          std::uint64_t seed) {
   std::vector<Eigen::Vector3f> seen = picked(cloud.points, filtered);
-  for (const auto& others : {cropped.bin, cropped.outside}) {
-    std::ranges::copy(picked(cloud.points, downsample(others, ratio, seed)), std::back_inserter(seen));
+  for (const auto* others : {&cropped.bin, &cropped.outside}) {
+    std::ranges::copy(picked(cloud.points, downsample(*others, ratio, seed)), std::back_inserter(seen));
   }
   return seen;
 }
