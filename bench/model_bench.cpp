@@ -36,7 +36,7 @@ const Scans& scans_of(const std::string& bin, int tubes) {
   if (!is_new) return scans;
   Recipe recipe = paper_set("A", 30);
   recipe.bin = bin_preset(bin);
-  scans.known = {.bin = recipe.bin, .camera = recipe.camera};
+  scans.known = {.support = {.bin = recipe.bin}, .camera = recipe.camera};
   for (int number = 1; number <= cases_timed; ++number) {
     scans.clouds.push_back(
         cloud_from_scan(simulate(recipe, {"A", tubes, number}).scan, CloudOf::tubes_and_bin, tubes));

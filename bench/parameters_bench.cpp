@@ -40,7 +40,7 @@ const std::vector<PointCloud>& clouds_of(const std::string& set, double bend_max
 }
 
 double micro_recall(const PointCloud& cloud, const PaperSettings& settings) {
-  const KnownScene known{.bin = bin_preset("paper"), .camera = camera_preset("paper")};
+  const KnownScene known{.support = {.bin = bin_preset("paper")}, .camera = camera_preset("paper")};
   const Model model = model_as_in_paper(cloud, known, ratio, 1, settings).model;
   std::vector<std::int32_t> truth;
   std::vector<std::int32_t> found;

@@ -8,7 +8,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tanglebin)
 set(public_headers
   base/error base/random
   geometry/bin geometry/camera geometry/capsule geometry/intersect geometry/labels geometry/mass_properties geometry/ray
-  geometry/segment geometry/tube
+  geometry/segment geometry/support geometry/tube
   cloud/cloud cloud/images cloud/label_colors
   io/configuration io/images io/pcd io/ply io/read_cloud
   generate/generate generate/tube_spec

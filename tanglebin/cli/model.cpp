@@ -59,7 +59,7 @@ std::vector<SegmentTree> known_segments(const ModelArguments& arguments) {
 }
 
 KnownScene known_scene(const ModelArguments& arguments, const PointCloud& cloud) {
-  KnownScene known{.bin = bin_preset(arguments.bin), .camera = camera_preset(arguments.scanner)};
+  KnownScene known{.support = {.bin = bin_preset(arguments.bin)}, .camera = camera_preset(arguments.scanner)};
   const std::vector<double> radii =
       arguments.radius == "auto"
           ? std::vector{with_file(arguments.cloud, [&] { return estimate_radius(cloud, known); })}
@@ -143,10 +143,11 @@ std::vector<NamedPicture> pictures(const PointCloud& cloud, const KnownScene& kn
   const auto& [method, ratio, seed, axis, paper] = settings;
   switch (method) {
     case Method::paper:
-      return pictures_of_steps(cloud, model_as_in_paper(cloud, known, ratio, seed, paper), known.bin,
+      return pictures_of_steps(cloud, model_as_in_paper(cloud, known, ratio, seed, paper), known.support.bin,
                                known.kinds[0].radius, name);
     case Method::axis:
-      return pictures_of_steps(cloud, model_by_axes(cloud, known, ratio, seed, axis), known.bin, name);
+      return pictures_of_steps(cloud, model_by_axes(cloud, known, ratio, seed, axis), known.support.bin,
+                               name);
   }
   return {};
 }

@@ -31,7 +31,7 @@ std::string case_sha256(const Dataset& dataset, const CaseId& id) {
 }
 
 KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
-  KnownScene known{.bin = recipe.bin, .camera = recipe.camera, .kinds = {}};
+  KnownScene known{.support = {.bin = recipe.bin}, .camera = recipe.camera, .kinds = {}};
   for (const TubeSpec& spec : set_named(recipe, id.set).kinds) {
     const TubeKind kind = known_kind(spec);
     const auto same = std::ranges::find(known.kinds, kind.radius, &TubeKind::radius);

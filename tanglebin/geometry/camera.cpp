@@ -7,6 +7,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/geometry/rigid.hpp"
 
 namespace tanglebin {
 namespace {
@@ -31,11 +32,6 @@ void require_coordinate(double pixels, const char* field) {
   require(std::isfinite(pixels), field, std::to_string(pixels), "a finite number of pixels");
 }
 
-bool is_rotation(const Eigen::Matrix3d& matrix) {
-  constexpr double tolerance = 1e-6;
-  return matrix.isUnitary(tolerance) && matrix.determinant() > 0;
-}
-
 }  // namespace
 
 bool operator==(const Camera& camera, const Camera& other) {
@@ -56,6 +52,15 @@ Camera downward_camera(int width, int height, double focal_length_px, const Vect
   camera.pose.linear() = Vector3d(1, -1, -1).asDiagonal();
   camera.pose.translation() = position;
   return camera;
+}
+
+Intrinsics intrinsics_of(const Camera& camera) {
+  return {camera.width, camera.height, camera.fx, camera.fy, camera.cx, camera.cy};
+}
+
+Camera camera_with(const Intrinsics& intrinsics, const Eigen::Isometry3d& pose) {
+  const auto& [width, height, fx, fy, cx, cy] = intrinsics;
+  return {.width = width, .height = height, .fx = fx, .fy = fy, .cx = cx, .cy = cy, .pose = pose};
 }
 
 double focal_length_from_hfov(int width, double hfov) {
@@ -114,7 +119,7 @@ void validate(const Camera& camera) {
   require_coordinate(camera.cy, "scanner.cy");
   require(camera.pose.translation().allFinite(), "scanner.pose", "a position that is not finite",
           "finite coordinates");
-  require(is_rotation(camera.pose.linear()), "scanner.pose", "an orientation that is not a rotation",
+  require(is_rigid(camera.pose), "scanner.pose", "an orientation that is not a rotation",
           "a right-handed orthonormal frame");
 }
 

@@ -8,6 +8,18 @@
 
 namespace tanglebin {
 
+/// What a camera is by itself: the size of its images and its pinhole model (Camera has the conventions).
+struct Intrinsics {
+  int width;   ///< pixels
+  int height;  ///< pixels
+  double fx;   ///< focal lengths, pixels
+  double fy;
+  double cx;  ///< principal point, pixels
+  double cy;
+
+  bool operator==(const Intrinsics&) const = default;
+};
+
 /// A pinhole camera. The camera frame is the usual one in computer vision: x right, y down, z along the view.
 /// The pixel in column u and row v has its centre at image coordinates (u, v); the image's centre is
 /// ((width−1)/2, (height−1)/2).
@@ -27,6 +39,9 @@ bool operator==(const Camera& camera, const Camera& other);
 /// A camera at `position` (m) that looks straight down. The image's x axis is along the world's x, pixels are
 /// square, and the principal point is at the image's centre.
 Camera downward_camera(int width, int height, double focal_length_px, const Eigen::Vector3d& position);
+
+Intrinsics intrinsics_of(const Camera& camera);
+Camera camera_with(const Intrinsics& intrinsics, const Eigen::Isometry3d& pose);
 
 /// Focal length, in pixels, of an image that is `width` pixels wide and spans `hfov` radians, 0 < hfov < π.
 double focal_length_from_hfov(int width, double hfov);

@@ -8,6 +8,7 @@
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/model/axis/axis_method.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
+#include "tanglebin/model/scene/support_frame.hpp"
 
 namespace tanglebin {
 namespace {
@@ -21,10 +22,10 @@ void check_size(const PointCloud& cloud, const KnownScene& known) {
   if (bounds.isEmpty()) return;
   const double size = bounds.sizes().cast<double>().maxCoeff();
   constexpr double too_many_times = 100;
-  if (size > too_many_times * known.bin.length) {
+  if (known.support.shape == Support::Shape::bin && size > too_many_times * known.support.bin.length) {
     throw InputError({}, fmt::format("points up to {:.4g} m apart", size),
                      fmt::format("a scan, in metres, of a bin that is {:.4g} m long; are these millimetres?",
-                                 known.bin.length));
+                                 known.support.bin.length));
   }
 }
 
@@ -71,13 +72,14 @@ void validate(const KnownScene& known, const ModelSettings& settings) {
 Model model_tubes(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings) {
   validate(known, settings);
   check_size(cloud, known);
-  switch (settings.method) {
-    case Method::paper:
-      return model_as_in_paper(cloud, known, settings.ratio, settings.seed, settings.paper).model;
-    case Method::axis:
-      return model_by_axes(cloud, known, settings.ratio, settings.seed, settings.axis).model;
-  }
-  return {};
+  const auto model_here = [&](const PointCloud& here, const KnownScene& known_here) {
+    const auto& [method, ratio, seed, axis, paper] = settings;
+    return method == Method::paper ? model_as_in_paper(here, known_here, ratio, seed, paper).model
+                                   : model_by_axes(here, known_here, ratio, seed, axis).model;
+  };
+  if (is_in_support_frame(known)) return model_here(cloud, known);
+  const Seen seen = in_support_frame(cloud, known);
+  return in_world_frame(model_here(seen.cloud, seen.known), known);
 }
 
 }  // namespace tanglebin

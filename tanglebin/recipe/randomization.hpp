@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tanglebin/io/toml_table.hpp"
 #include "tanglebin/recipe/recipe.hpp"
-#include "tanglebin/recipe/toml_table.hpp"
 
 // Internal to the room: random numbers in TOML trees. Drawing replaces them, so the reader of recipes knows
 // nothing of them.

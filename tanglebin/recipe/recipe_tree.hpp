@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "tanglebin/io/toml_table.hpp"
 #include "tanglebin/recipe/recipe.hpp"
-#include "tanglebin/recipe/toml_table.hpp"
 
 // Internal to the room: recipes and TOML trees.
 namespace tanglebin {

@@ -101,7 +101,7 @@ TEST_F(ModelCommand, PrintsNothingBesideTubesOnStandardOutput) {
 TEST_F(ModelCommand, KeepsAnOrganizedCloudOrganizedInPcdAndDropsItsHolesInPly) {
   const KnownScene scene = test::paper_scene();
   const PointCloud organized =
-      organized_cloud_from_scan(scan(tubes_, scene.bin, scene.camera), CloudOf::tubes_and_bin, 2);
+      organized_cloud_from_scan(scan(tubes_, scene.support.bin, scene.camera), CloudOf::tubes_and_bin, 2);
   std::ostringstream pcd;
   write_pcd(pcd, organized);
   write("scan.pcd", pcd.str());

@@ -101,7 +101,7 @@ TEST_P(ModelTubes, DoesNotLookAtLabelsAndColours) {
 TEST_P(ModelTubes, OfAnOrganizedCloudLeavesItsHolesNull) {
   const KnownScene scene = paper_scene();
   const PointCloud cloud =
-      organized_cloud_from_scan(scan(three_tubes(), scene.bin, scene.camera), CloudOf::tubes, 3);
+      organized_cloud_from_scan(scan(three_tubes(), scene.support.bin, scene.camera), CloudOf::tubes, 3);
   const Model model = modelled(cloud);
   EXPECT_EQ(model.tubes.size(), 3U);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/io/toml_table.hpp"
 #include "tanglebin/recipe/case_id.hpp"
-#include "tanglebin/recipe/toml_table.hpp"
 #include "tests/recipe/recipes.hpp"
 
 namespace tanglebin {

@@ -60,7 +60,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
     for (std::size_t i = 0; i < known.kinds.size(); ++i) step(result.kinds[i], known.kinds[i]);
   };
 
-  const Cropped cropped = crop(cloud, known.bin, settings.filter);
+  const Cropped cropped = crop(cloud, known.support, settings.filter);
   model.filtered = downsample(cropped.kept, ratio, seed);
   const std::vector<Vector3f> points = picked(cloud.points, model.filtered);
   clock.end_step("filter", points.size(), "points");
@@ -70,7 +70,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   result.kinds.resize(known.kinds.size());
   for (std::size_t i = 0; i < known.kinds.size(); ++i) {
     result.kinds[i].votes =
-        vote_for_axes(by_kind[i], known.bin, known.camera, known.kinds[i].radius, settings.vote);
+        vote_for_axes(by_kind[i], known.support, known.camera, known.kinds[i].radius, settings.vote);
   }
   clock.end_step("vote", total(result.kinds, number_of_votes), "votes");
 

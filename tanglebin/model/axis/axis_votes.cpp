@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <optional>
 
@@ -11,23 +10,23 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// A bin's floor and walls in single precision.
-using BinBoxes = std::array<Eigen::AlignedBox3f, 5>;
+using Boxes = std::vector<Eigen::AlignedBox3f>;
 
-BinBoxes boxes_of(const Bin& bin) {
-  BinBoxes result;
-  std::ranges::transform(boxes(bin), result.begin(),
-                         [](const auto& box) { return box.template cast<float>(); });
+Boxes in_single_precision(const std::vector<Eigen::AlignedBox3d>& parts) {
+  Boxes result;
+  for (const auto& part : parts) result.push_back(part.cast<float>());
   return result;
 }
 
-bool is_clear_of(const BinBoxes& bin, const Vector3f& axis, float clearance) {
+bool is_clear_of(const Boxes& solid, const Vector3f& axis, float clearance) {
   return std::ranges::none_of(
-      bin, [&](const auto& box) { return box.squaredExteriorDistance(axis) < clearance * clearance; });
+      solid, [&](const auto& box) { return box.squaredExteriorDistance(axis) < clearance * clearance; });
 }
 
-std::vector<Vector3f> without_floor(const std::vector<Vector3f>& points, double margin) {
+std::vector<Vector3f> without_floor(const std::vector<Vector3f>& points, const Support& support,
+                                    double margin) {
   std::vector<Vector3f> kept = points;
+  if (support.shape == Support::Shape::nothing) return kept;
   for (Vector3f& point : kept) {
     if (point.z() < margin) point.setConstant(std::numeric_limits<float>::quiet_NaN());
   }
@@ -36,15 +35,16 @@ std::vector<Vector3f> without_floor(const std::vector<Vector3f>& points, double 
 
 }  // namespace
 
-AxisVotes vote_for_axes(const std::vector<Vector3f>& points, const Bin& bin, const Camera& camera,
+AxisVotes vote_for_axes(const std::vector<Vector3f>& points, const Support& support, const Camera& camera,
                         double radius, const VoteSettings& settings) {
   const Vector3f nothing = Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
   AxisVotes result{std::vector(points.size(), nothing), std::vector(points.size(), nothing)};
 
   const auto depth = static_cast<float>(radius);  // of the axis below the surface
-  const float clearance = depth * (1 - static_cast<float>(settings.bin_tolerance));
-  const BinBoxes solid = boxes_of(bin);
-  const PixelGrid grid(without_floor(points, settings.floor_margin * radius), camera);
+  const float clearance = std::max(
+      0.0F, depth * (1 - static_cast<float>(settings.bin_tolerance)) - static_cast<float>(support.margin));
+  const Boxes solid = in_single_precision(solid_parts(support));
+  const PixelGrid grid(without_floor(points, support, settings.floor_margin * radius), camera);
   const float reach = suitable_reach(grid, radius, settings.patch);
   const std::vector<std::optional<Patch>> patches = surface_patches(grid, reach, settings.patch);
   for (std::size_t item = 0; item < patches.size(); ++item) {

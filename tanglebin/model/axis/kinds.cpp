@@ -43,7 +43,7 @@ std::vector<std::vector<std::size_t>> pieces(const std::vector<Vector3f>& points
   vote.patch = for_all(vote.patch, radii);
   vote.bin_tolerance = 1;  // a thinner tube's axis may be nearer to the bin than this radius
   const double radius = radii.middle();
-  const AxisVotes votes = vote_for_axes(points, known.bin, known.camera, radius, vote);
+  const AxisVotes votes = vote_for_axes(points, known.support, known.camera, radius, vote);
   std::vector<std::vector<std::size_t>> found;
   for (Skeleton& skeleton : find_skeletons(votes.votes, fragment.voxel * radius, fragment.step * radius,
                                            std::numeric_limits<double>::infinity())) {

@@ -12,7 +12,7 @@
 namespace tanglebin {
 
 double estimate_radius(const PointCloud& cloud, const KnownScene& known) {
-  const PixelGrid grid(picked(cloud.points, crop(cloud, known.bin, {}).kept), known.camera);
+  const PixelGrid grid(picked(cloud.points, crop(cloud, known.support, {}).kept), known.camera);
   // Pairs at the right distance need the radius, so start from a likely one.
   auto radius = static_cast<float>(TubeKind().radius);
   constexpr int refinements = 6;

@@ -47,7 +47,7 @@ PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, d
   StepClock clock(model.steps);
 
   // Section 4, the filtering step: the crop box of Section 6.2, random downsampling, normals.
-  const Cropped cropped = crop(cloud, known.bin, settings.filter);
+  const Cropped cropped = crop(cloud, known.support, settings.filter);
   model.filtered = downsample(cropped.kept, ratio, seed);
   result.filtered =
       with_normals(cloud, model.filtered, known.camera.pose.translation(), settings.normal_neighbours);

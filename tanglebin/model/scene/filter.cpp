@@ -9,16 +9,27 @@
 
 namespace tanglebin {
 
-Cropped crop(const PointCloud& cloud, const Bin& bin, const FilterSettings& settings) {
-  const auto bin_boxes = boxes(bin);
-  Eigen::AlignedBox3d around;
-  for (const Eigen::AlignedBox3d& box : bin_boxes) around.extend(box);
-  around.min().array() -= settings.overhang;
-  around.max().array() += settings.overhang;
+namespace {
 
-  const auto is_of_bin = [&](const Eigen::Vector3d& point) {
-    return std::ranges::any_of(bin_boxes, [&](const Eigen::AlignedBox3d& box) {
-      return box.squaredExteriorDistance(point) < settings.margin * settings.margin;
+Eigen::AlignedBox3d crop_box(const Support& support, double overhang) {
+  const Eigen::Vector3d far = Eigen::Vector3d::Constant(20);  // m; keeps the indices of grids in range
+  if (support.shape == Support::Shape::nothing) return {-far, far};
+  Eigen::AlignedBox3d box;
+  for (const Eigen::AlignedBox3d& part : solid_parts(support)) box.extend(part);
+  box.min().array() -= overhang;
+  box.max().array() += overhang;
+  if (support.shape == Support::Shape::plane) box.max().z() = far.z();
+  return box.intersection({-far, far});
+}
+
+}  // namespace
+
+Cropped crop(const PointCloud& cloud, const Support& support, const FilterSettings& settings) {
+  const std::vector<Eigen::AlignedBox3d> parts = solid_parts(support);
+  const Eigen::AlignedBox3d around = crop_box(support, settings.overhang);
+  const auto is_within = [&](double margin, const Eigen::Vector3d& point) {
+    return std::ranges::any_of(parts, [&](const Eigen::AlignedBox3d& part) {
+      return part.squaredExteriorDistance(point) < margin * margin;
     });
   };
   Cropped cropped;
@@ -27,10 +38,11 @@ Cropped crop(const PointCloud& cloud, const Bin& bin, const FilterSettings& sett
     if (!point.allFinite()) continue;
     if (!around.contains(point)) {
       cropped.outside.push_back(i);
-    } else if (is_of_bin(point)) {
-      cropped.bin.push_back(i);
+    } else if (is_within(settings.margin, point)) {
+      cropped.support.push_back(i);
     } else {
       cropped.kept.push_back(i);
+      if (support.margin > 0 && is_within(settings.margin + support.margin, point)) cropped.near.push_back(i);
     }
   }
   return cropped;
@@ -56,7 +68,7 @@ std::vector<Eigen::Vector3f> points_seen(const PointCloud& cloud, const Cropped&
                                          const std::vector<std::size_t>& filtered, double ratio,
                                          std::uint64_t seed) {
   std::vector<Eigen::Vector3f> seen = picked(cloud.points, filtered);
-  for (const auto* others : {&cropped.bin, &cropped.outside}) {
+  for (const auto* others : {&cropped.support, &cropped.outside}) {
     std::ranges::copy(picked(cloud.points, downsample(*others, ratio, seed)), std::back_inserter(seen));
   }
   return seen;

@@ -5,21 +5,23 @@
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
-#include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/geometry/support.hpp"
 #include "tanglebin/model/scene/shared_settings.hpp"
 
 namespace tanglebin {
 
 /// The points of a cloud by where they are: ascending indices. Points without a finite position are in none.
 struct Cropped {
-  std::vector<std::size_t> kept;     ///< around the bin, and not the bin itself
-  std::vector<std::size_t> bin;      ///< on the floor or the walls
-  std::vector<std::size_t> outside;  ///< too far from the bin
+  std::vector<std::size_t> kept;     ///< around the support, and not the support itself
+  std::vector<std::size_t> support;  ///< on the plane, or on the bin's floor or walls
+  std::vector<std::size_t> outside;  ///< too far from the support
+  std::vector<std::size_t> near;     ///< of those kept, the ones within the support's margin
 };
 
-/// Sorts the points by the known bin. The crop box follows the floor and walls. Nothing is cropped above the
-/// rim, because tubes stick out over it.
-Cropped crop(const PointCloud& cloud, const Bin& bin, const FilterSettings& settings);
+/// Sorts the points (m, in the support's frame) by the known support. The crop box follows the floor and
+/// walls of a bin; tubes may stick out over its rim. Above a plane and without a support, only what is more
+/// than 20 m from the origin is cropped.
+Cropped crop(const PointCloud& cloud, const Support& support, const FilterSettings& settings);
 
 /// Draws ratio · size of the indices (rounded) at random without replacement, and keeps their order.
 std::vector<std::size_t> downsample(const std::vector<std::size_t>& indices, double ratio,

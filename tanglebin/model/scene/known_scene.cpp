@@ -19,6 +19,16 @@ void check_positive(double value, const std::string& field) {
   }
 }
 
+// Keeps the indices of grids with tube-wide cells in range.
+void validate_radius(double radius) {
+  check_positive(radius, "radius");
+  constexpr double thinnest = 1e-4;
+  constexpr double thickest = 1;
+  if (radius < thinnest || radius > thickest)
+    throw InputError({"", 0, "radius"}, fmt::format("{} m", radius),
+                     fmt::format("{} to {} m{}", thinnest, thickest, hint_of_millimetres(radius)));
+}
+
 // Larger numbers are not in metres. A tube may be longer than the bin, but not many times.
 void validate_fit(const TubeKind& kind, const Bin& bin) {
   const double widest = std::min(bin.length, bin.width) / 2;
@@ -28,7 +38,7 @@ void validate_fit(const TubeKind& kind, const Bin& bin) {
                                  hint_of_millimetres(kind.radius)));
   constexpr double too_many_times = 10;
   const double longest = too_many_times * Eigen::Vector3d(bin.length, bin.width, bin.height).norm();
-  if (kind.length() > longest)
+  if (kind.length_is_known() && kind.length() > longest)
     throw InputError({"", 0, kind.branches() ? "tree" : "length"}, fmt::format("{} m", kind.length()),
                      fmt::format("at most {:.3g} m, ten times the bin's diagonal{}", longest,
                                  hint_of_millimetres(kind.length())));
@@ -37,20 +47,15 @@ void validate_fit(const TubeKind& kind, const Bin& bin) {
 }  // namespace
 
 void validate(const KnownScene& known) {
-  validate(known.bin);
+  validate(known.support);
   validate(known.camera);
   if (known.kinds.empty()) throw InputError({"", 0, "kinds"}, "none", "at least one kind of tube");
   std::set<double> radii;
   for (const TubeKind& kind : known.kinds) {
-    check_positive(kind.radius, "radius");
-    validate(kind.segments, kind.branches() ? "tree" : "length");
-    // Keeps the cell indices of grids with tube-wide cells in range.
-    constexpr double thinnest = 1e-5;  // relative to the bin's length
-    if (kind.radius < thinnest * known.bin.length)
-      throw InputError({"", 0, "radius"}, fmt::format("{} m", kind.radius),
-                       fmt::format("at least {:.4g} m, for a bin that is {} m long",
-                                   thinnest * known.bin.length, known.bin.length));
-    validate_fit(kind, known.bin);
+    validate_radius(kind.radius);
+    if (kind.branches() || kind.length_is_known())
+      validate(kind.segments, kind.branches() ? "tree" : "length");
+    if (known.support.shape == Support::Shape::bin) validate_fit(kind, known.support.bin);
     if (!radii.insert(kind.radius).second)
       throw InputError({"", 0, "radius"}, fmt::format("{} m for two kinds", kind.radius),
                        "a different radius for each kind");

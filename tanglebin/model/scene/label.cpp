@@ -53,7 +53,7 @@ std::vector<std::int32_t> label_points(const PointCloud& cloud, const Cropped& c
                                        const std::vector<std::int32_t>& claimed,
                                        const std::vector<Tube>& tubes, const LabelSettings& settings) {
   std::vector<std::int32_t> labels(cloud.points.size(), null_label);
-  for (const std::size_t point : cropped.bin) labels[point] = bin_label;
+  for (const std::size_t point : cropped.support) labels[point] = bin_label;
   std::vector<std::size_t> rest;
   for (const std::size_t point : cropped.kept) {
     labels[point] = claimed[point];
@@ -61,6 +61,9 @@ std::vector<std::int32_t> label_points(const PointCloud& cloud, const Cropped& c
   }
   const std::vector<std::int32_t> nearest = label_by_nearest(cloud, rest, tubes, settings);
   for (std::size_t i = 0; i < rest.size(); ++i) labels[rest[i]] = nearest[i];
+  for (const std::size_t point : cropped.near) {
+    if (labels[point] == null_label) labels[point] = bin_label;
+  }
   return labels;
 }
 

@@ -41,7 +41,7 @@ using test::radius;
 
 AxisVotes votes_of(const std::vector<Eigen::Vector3f>& points) {
   const KnownScene scene = paper_scene();
-  return vote_for_axes(points, scene.bin, scene.camera, radius, {});
+  return vote_for_axes(points, scene.support, scene.camera, radius, {});
 }
 
 TEST(AxisVotes, OfAScannedTubeAreOnItsAxis) {

@@ -30,7 +30,7 @@ std::vector<Tube> mixed_tubes() {
 // Without the bin's points, as the filter leaves them.
 PointCloud mixed_cloud() {
   const KnownScene scene = mixed_scene();
-  return cloud_from_scan(scan(mixed_tubes(), scene.bin, scene.camera), CloudOf::tubes, 3);
+  return cloud_from_scan(scan(mixed_tubes(), scene.support.bin, scene.camera), CloudOf::tubes, 3);
 }
 
 TEST(PointsByKind, GoByTheCurvatureOfTheSurface) {

@@ -28,7 +28,7 @@ std::vector<std::size_t> all_of(const PointCloud& cloud) {
 TEST(Normals, AreThoseOfTheSurfaceAndPointToTheSensor) {
   const std::vector<Tube> tubes = {test::straight_tube(1, 0)};
   const KnownScene scene = paper_scene();
-  const Scan view = scan(tubes, scene.bin, scene.camera);
+  const Scan view = scan(tubes, scene.support.bin, scene.camera);
   const PointCloud cloud = cloud_from_scan(view, CloudOf::tubes, 1);
   const OrientedCloud oriented =
       with_normals(cloud, all_of(cloud), scene.camera.pose.translation(), neighbours);

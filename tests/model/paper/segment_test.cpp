@@ -14,7 +14,7 @@ namespace {
 
 OrientedCloud filtered(const PointCloud& cloud) {
   const KnownScene scene = test::paper_scene();
-  return with_normals(cloud, crop(cloud, scene.bin, {}).kept, scene.camera.pose.translation(),
+  return with_normals(cloud, crop(cloud, scene.support, {}).kept, scene.camera.pose.translation(),
                       PaperSettings{}.normal_neighbours);
 }
 

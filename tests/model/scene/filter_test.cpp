@@ -25,7 +25,7 @@ TEST(Crop, TakesAwayTheWholeBinAndNoTube) {
       test::straight_tube(1, 0), test::chain(2, 0.0125, {{-0.2, 0.1, 0.1}, {0.2, 0.1, 0.15}}),
       test::chain(3, 0.0125, {{0.1, -0.1, 0.2}, {0.29, -0.1, 0.215}, {0.36, -0.1, 0.15}})};
   const PointCloud cloud = scanned(tubes);
-  const std::vector<std::size_t> kept = crop(cloud, paper_scene().bin, {}).kept;
+  const std::vector<std::size_t> kept = crop(cloud, paper_scene().support, {}).kept;
   std::vector<std::size_t> of_tubes;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (cloud.labels[i] > bin_label) of_tubes.push_back(i);
@@ -38,7 +38,7 @@ TEST(Crop, OfATubeAtTheWallTakesNoMoreThanItsMargin) {
       test::chain(1, 0.0125, {{-0.2, 0.185 - 0.0125, 0.0125}, {0.2, 0.185 - 0.0125, 0.1}})};
   const PointCloud cloud = scanned(tubes);
   const FilterSettings settings;
-  const std::vector<std::size_t> kept = crop(cloud, paper_scene().bin, settings).kept;
+  const std::vector<std::size_t> kept = crop(cloud, paper_scene().support, settings).kept;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (cloud.labels[i] != 1 || std::ranges::binary_search(kept, i)) continue;
     EXPECT_GE(cloud.points[i].y(), 0.185 - settings.margin);
@@ -49,9 +49,9 @@ TEST(Crop, TellsTheBinFromWhatIsNowhereOrFarAway) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const PointCloud cloud =
       cloud_of({{0, 0, 0.1F}, {nan, 0, 0.1F}, {5, 0, 0.1F}, {0, 0, -3}, {0, 0, 0.3F}, {0, 0, 0}});
-  const Cropped cropped = crop(cloud, paper_scene().bin, {});
+  const Cropped cropped = crop(cloud, paper_scene().support, {});
   EXPECT_THAT(cropped.kept, ElementsAre(0, 4));
-  EXPECT_THAT(cropped.bin, ElementsAre(5));
+  EXPECT_THAT(cropped.support, ElementsAre(5));
   EXPECT_THAT(cropped.outside, ElementsAre(2, 3));
 }
 
@@ -85,13 +85,13 @@ TEST(Downsample, FollowsFromTheSeedAndTakesEveryIndexAlike) {
 // What a method sees at a ratio is that ratio of the whole cloud, the bin included.
 TEST(PointsSeen, AreTheFilteredOnesAndTheSameShareOfTheOthers) {
   const PointCloud cloud = scanned({test::straight_tube(1, 0)});
-  const Cropped cropped = crop(cloud, paper_scene().bin, {});
+  const Cropped cropped = crop(cloud, paper_scene().support, {});
   const std::vector<std::size_t> filtered = downsample(cropped.kept, 0.3, 5);
   const std::vector<Eigen::Vector3f> seen = points_seen(cloud, cropped, filtered, 0.3, 5);
   ASSERT_GT(seen.size(), filtered.size());
   EXPECT_EQ(std::vector(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(filtered.size())),
             picked(cloud.points, filtered));
-  const std::size_t all = cropped.kept.size() + cropped.bin.size() + cropped.outside.size();
+  const std::size_t all = cropped.kept.size() + cropped.support.size() + cropped.outside.size();
   EXPECT_NEAR(static_cast<double>(seen.size()), 0.3 * static_cast<double>(all), 2);
   EXPECT_EQ(points_seen(cloud, cropped, cropped.kept, 1, 5).size(), all);
 }

@@ -12,7 +12,7 @@ namespace tanglebin::test {
 
 /// The paper's bin and scanner.
 inline KnownScene paper_scene() {
-  return {.bin = bin_preset("paper"), .camera = camera_preset("paper")};
+  return {.support = {.bin = bin_preset("paper")}, .camera = camera_preset("paper")};
 }
 
 inline constexpr double radius = 0.0125;  ///< m, of the paper's tubes
@@ -20,7 +20,7 @@ inline constexpr double radius = 0.0125;  ///< m, of the paper's tubes
 /// What the paper's scanner sees of tubes in the paper's bin, the bin included.
 inline PointCloud scanned(const std::vector<Tube>& tubes) {
   const KnownScene scene = paper_scene();
-  return cloud_from_scan(scan(tubes, scene.bin, scene.camera), CloudOf::tubes_and_bin,
+  return cloud_from_scan(scan(tubes, scene.support.bin, scene.camera), CloudOf::tubes_and_bin,
                          static_cast<int>(tubes.size()));
 }
 

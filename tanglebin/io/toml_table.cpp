@@ -1,4 +1,4 @@
-#include "tanglebin/recipe/toml_table.hpp"
+#include "tanglebin/io/toml_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,35 @@
+#include "tanglebin/model/scene/support_frame.hpp"
+
+#include <utility>
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Isometry3d;
+
+Isometry3d frame_of(const KnownScene& known) {
+  if (known.support.shape != Support::Shape::nothing) return known.support.pose;
+  return Isometry3d(Eigen::Translation3d(known.camera.pose.translation()));
+}
+
+}  // namespace
+
+bool is_in_support_frame(const KnownScene& known) {
+  return frame_of(known).matrix() == Eigen::Matrix4d::Identity();
+}
+
+Seen in_support_frame(const PointCloud& cloud, const KnownScene& known) {
+  Seen seen{cloud, known};
+  const Isometry3d from_world = frame_of(known).inverse(Eigen::Isometry);
+  for (Eigen::Vector3f& point : seen.cloud.points) point = (from_world * point.cast<double>()).cast<float>();
+  seen.known.camera.pose = from_world * known.camera.pose;
+  seen.known.support.pose.setIdentity();
+  return seen;
+}
+
+Model in_world_frame(Model model, const KnownScene& known) {
+  for (Tube& tube : model.tubes) transform(tube, frame_of(known));
+  return model;
+}
+
+}  // namespace tanglebin
