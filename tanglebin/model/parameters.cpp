@@ -18,12 +18,19 @@ template <typename Settings, typename Visit>
 void for_each_parameter(Settings& settings, Visit visit) {
   visit("axis.filter.margin", settings.axis.filter.margin);
   visit("axis.filter.overhang", settings.axis.filter.overhang);
+  visit("axis.ramp.slope_min", settings.axis.ramp.slope_min);
+  visit("axis.ramp.drop_min", settings.axis.ramp.drop_min);
+  visit("axis.ramp.edge_min", settings.axis.ramp.edge_min);
+  visit("axis.ramp.steps_max", settings.axis.ramp.steps_max);
+  visit("axis.ramp.beside", settings.axis.ramp.beside);
+  visit("axis.ramp.blended_min", settings.axis.ramp.blended_min);
   visit("axis.vote.patch.neighbours", settings.axis.vote.patch.neighbours);
   visit("axis.vote.patch.neighbours_min", settings.axis.vote.patch.neighbours_min);
   visit("axis.vote.patch.reach_min", settings.axis.vote.patch.reach_min);
   visit("axis.vote.patch.reach_max", settings.axis.vote.patch.reach_max);
   visit("axis.vote.patch.breadth_min", settings.axis.vote.patch.breadth_min);
   visit("axis.vote.patch.roughness_max", settings.axis.vote.patch.roughness_max);
+  visit("axis.vote.facing_min", settings.axis.vote.facing_min);
   visit("axis.vote.floor_margin", settings.axis.vote.floor_margin);
   visit("axis.vote.bin_tolerance", settings.axis.vote.bin_tolerance);
   visit("axis.fragment.voxel", settings.axis.fragment.voxel);
@@ -34,6 +41,9 @@ void for_each_parameter(Settings& settings, Visit visit) {
   visit("axis.fragment.cap_min", settings.axis.fragment.cap_min);
   visit("axis.fragment.extent_min", settings.axis.fragment.extent_min);
   visit("axis.fragment.spread_max", settings.axis.fragment.spread_max);
+  visit("axis.fragment.share_min", settings.axis.fragment.share_min);
+  visit("axis.fragment.weak_max", settings.axis.fragment.weak_max);
+  visit("axis.fragment.parallel_max", settings.axis.fragment.parallel_max);
   visit("axis.fragment.points_min", settings.axis.fragment.points_min);
   visit("axis.link.angle_max", settings.axis.link.angle_max);
   visit("axis.link.length_tolerance", settings.axis.link.length_tolerance);

@@ -1,11 +1,13 @@
 #include "tanglebin/model/axis/axis_method.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/model/axis/choose_links.hpp"
 #include "tanglebin/model/axis/kinds.hpp"
+#include "tanglebin/model/axis/ramps.hpp"
 #include "tanglebin/model/scene/range_image.hpp"
 #include "tanglebin/model/scene/step_clock.hpp"
 
@@ -44,6 +46,26 @@ std::vector<Ball> space_of_other_kinds(const std::vector<AxisSteps>& kinds, cons
   return space;
 }
 
+double smallest_radius(const std::vector<TubeKind>& kinds) {
+  return std::ranges::min_element(kinds, {}, &TubeKind::radius)->radius;
+}
+
+// The points, without those on ramps: NaN.
+std::vector<Vector3f> without(const Ramps& ramps, std::vector<Vector3f> points,
+                              const std::vector<std::size_t>& indices) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (ramps.points[indices[i]]) points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+  }
+  return points;
+}
+
+// Without what keeps false votes out where a scanner makes ramps, and a few true ones.
+AxisSettings for_sharp_edges(AxisSettings settings) {
+  settings.vote.facing_min = 0;
+  settings.fragment.weak_max = 0;
+  return settings;
+}
+
 std::size_t number_of_votes(const AxisSteps& steps) {
   return static_cast<std::size_t>(
       std::ranges::count_if(steps.votes.votes, [](const Vector3f& vote) { return vote.allFinite(); }));
@@ -52,7 +74,7 @@ std::size_t number_of_votes(const AxisSteps& steps) {
 }  // namespace
 
 AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double ratio, std::uint64_t seed,
-                        const AxisSettings& settings) {
+                        const AxisSettings& given) {
   AxisModel result;
   Model& model = result.model;
   StepClock clock(model.steps);
@@ -60,13 +82,17 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
     for (std::size_t i = 0; i < known.kinds.size(); ++i) step(result.kinds[i], known.kinds[i]);
   };
 
-  const Cropped cropped = crop(cloud, known.support, settings.filter);
+  const Cropped cropped = crop(cloud, known.support, given.filter);
   model.filtered = downsample(cropped.kept, ratio, seed);
   const std::vector<Vector3f> points = picked(cloud.points, model.filtered);
+  const Ramps ramps = find_ramps(cloud.points, known.camera, smallest_radius(known.kinds), given.ramp);
+  const bool has_ramps = ramps.blended >= given.ramp.blended_min;
+  const AxisSettings settings = has_ramps ? given : for_sharp_edges(given);
+  const std::vector<Vector3f> voters = has_ramps ? without(ramps, points, model.filtered) : points;
   clock.end_step("filter", points.size(), "points");
 
   const std::vector<std::vector<Vector3f>> by_kind =
-      points_by_kind(points, known, settings.vote, settings.fragment);
+      points_by_kind(voters, known, settings.vote, settings.fragment);
   result.kinds.resize(known.kinds.size());
   for (std::size_t i = 0; i < known.kinds.size(); ++i) {
     result.kinds[i].votes =

@@ -6,6 +6,16 @@
 
 namespace tanglebin {
 
+/// Ramps: finds the points that a scanner has put between two surfaces.
+struct RampSettings {
+  double slope_min = 1.7;    ///< m of depth per m across the view, from each point of a ramp to the next
+  double drop_min = 0.75;    ///< radii, of depth from end to end; a tube's flank has less
+  double edge_min = 1.6;     ///< radii, the same for the edges that show what the scanner does
+  int steps_max = 6;         ///< longer runs are steep surfaces
+  double beside = 0.5;       ///< points beside a ramp that do not vote either, as a share of its length
+  double blended_min = 0.1;  ///< share of blended edges from which on the scanner is one that makes ramps
+};
+
 /// Surface patches: a plane through the neighbours of each point.
 struct PatchSettings {
   int neighbours = 40;         ///< desired number of points in a patch
@@ -19,21 +29,25 @@ struct PatchSettings {
 /// Vote: finds the axis point that a point's normal leads to.
 struct VoteSettings {
   PatchSettings patch;
+  double facing_min = 0.3;     ///< cosine of the angle between normal and view; where there are ramps
   double floor_margin = 0.5;   ///< radii; points nearer to the floor are not on a visible tube
   double bin_tolerance = 0.3;  ///< radii, by which an axis may be nearer to the bin than one radius
 };
 
 /// Fragment: finds thin clusters of votes and their centre lines.
 struct FragmentSettings {
-  double voxel = 0.32;       ///< radii; the axes of touching tubes are two radii apart
-  double step = 0.4;         ///< radii, between the nodes of a centre line
-  double branch_min = 1.6;   ///< radii; shorter branches of a centre line are dropped
-  double end_length = 1.6;   ///< radii, length of the part that gives an end its direction
-  double spot_max = 0.12;    ///< radii; votes with a smaller standard deviation count as a single spot
-  double cap_min = 0.05;     ///< least eigenvalue of the mean of n nᵀ over the normals n of a cap
-  double extent_min = 0.04;  ///< radii, from the last node of a centre line to its end
-  double spread_max = 0.5;   ///< radii; at least half of the votes are this near to their centre line
-  int points_min = 8;        ///< fragments with fewer points are dropped
+  double voxel = 0.32;         ///< radii; the axes of touching tubes are two radii apart
+  double step = 0.4;           ///< radii, between the nodes of a centre line
+  double branch_min = 1.6;     ///< radii; shorter branches of a centre line are dropped
+  double end_length = 1.6;     ///< radii, length of the part that gives an end its direction
+  double spot_max = 0.12;      ///< radii; votes with a smaller standard deviation count as a single spot
+  double cap_min = 0.05;       ///< least eigenvalue of the mean of n nᵀ over the normals n of a cap
+  double extent_min = 0.04;    ///< radii, from the last node of a centre line to its end
+  double spread_max = 0.5;     ///< radii, from the votes to their centre line
+  double share_min = 0.85;     ///< share of the votes that must be this near to it
+  double weak_max = 0.1;       ///< medians; voxels with fewer votes connect nothing, where there are ramps
+  double parallel_max = 0.96;  ///< length of the mean normal of a voxel; more are on a plane
+  int points_min = 8;          ///< fragments with fewer points are dropped
 };
 
 /// Join: which links are possible, and their weights.
@@ -64,6 +78,7 @@ struct TubeFitSettings {
 /// The parameters of the axis method. docs/algorithm.md explains how they were found.
 struct AxisSettings {
   FilterSettings filter;
+  RampSettings ramp;
   VoteSettings vote;
   FragmentSettings fragment;
   LinkSettings link;

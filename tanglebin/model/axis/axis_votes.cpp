@@ -55,6 +55,8 @@ AxisVotes vote_for_axes(const std::vector<Vector3f>& points, const Support& supp
     const float sagitta = patch.breadth * reach * reach / (2 * depth);
     const Vector3f axis = grid.point(item) + patch.mean - patch.normal * (depth - sagitta);
     if (!is_clear_of(solid, axis, clearance)) continue;
+    const Vector3f to_sensor = (camera.pose.translation().cast<float>() - grid.point(item)).normalized();
+    if (patch.normal.dot(to_sensor) < static_cast<float>(settings.facing_min)) continue;
     result.votes[grid.indices()[item]] = axis;
     result.normals[grid.indices()[item]] = patch.normal;
   }

@@ -111,25 +111,6 @@ std::vector<FragmentEnd> ends_of(const Fragment& fragment, const AxisVotes& vote
   return ends;
 }
 
-// Distinguishes tubes from planes and balls, whose votes are spread out.
-bool is_thin(const Skeleton& skeleton, const AxisVotes& votes, double spread_max) {
-  // Samples votes from all over the fragment, at multiples of the golden ratio, which match no regular order
-  // of points.
-  constexpr int looked_at = 100;
-  int near = 0;
-  for (int i = 0; i < looked_at; ++i) {
-    double whole = 0;
-    const double share = std::modf(i * std::numbers::phi, &whole);
-    const auto place = static_cast<std::size_t>(share * static_cast<double>(skeleton.points.size()));
-    const Vector3d vote = votes.votes[skeleton.points[place]].cast<double>();
-    if (std::ranges::any_of(skeleton.nodes,
-                            [&](const Vector3d& node) { return (node - vote).norm() < spread_max; })) {
-      ++near;
-    }
-  }
-  return 2 * near >= looked_at;
-}
-
 double length_of(const Fragment& fragment) {
   double length = 0;
   for (std::size_t node = 1; node < fragment.nodes.size(); ++node) {
@@ -142,13 +123,16 @@ double length_of(const Fragment& fragment) {
 
 std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
                                      const FragmentSettings& settings) {
-  const double branch_min =
-      with_branches ? settings.branch_min * radius : std::numeric_limits<double>::infinity();
+  const CutSettings cut{.branch_min = settings.branch_min * radius,
+                        .spread_max = settings.spread_max * radius,
+                        .share_min = settings.share_min,
+                        .weak_max = settings.weak_max,
+                        .parallel_max = settings.parallel_max,
+                        .may_branch = with_branches};
   std::vector<Fragment> fragments;
   for (Skeleton& skeleton :
-       find_skeletons(votes.votes, settings.voxel * radius, settings.step * radius, branch_min)) {
+       find_skeletons(votes.votes, votes.normals, settings.voxel * radius, settings.step * radius, cut)) {
     if (skeleton.points.size() < static_cast<std::size_t>(settings.points_min)) continue;
-    if (!is_thin(skeleton, votes, settings.spread_max * radius)) continue;
     Fragment fragment{
         std::move(skeleton.points), std::move(skeleton.nodes), std::move(skeleton.parents), {}, 0};
     fragment.ends = ends_of(fragment, votes, radius, settings);

@@ -15,14 +15,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double shortest = 0.002;  // m
+constexpr double shortest = 0.16;  // radii, added to gaps before their logarithm
 
 LinkFeatures features_of(const FragmentEnd& first, const FragmentEnd& second, double radius) {
   const Vector3d way = second.position - first.position;
   const Vector3d inward = -second.outward;
-  const double gap = way.norm();
+  const double gap = way.norm() / radius;
   const double turn = angle_between(first.outward, inward);
-  const double angle = gap < radius ? turn : angle_between(first.outward, way) + angle_between(inward, way);
+  const double angle = gap < 1 ? turn : angle_between(first.outward, way) + angle_between(inward, way);
   return {1, std::log(gap + shortest), gap, angle, angle * angle, turn, 0, 0};
 }
 
@@ -32,11 +32,11 @@ struct JunctionPlace {
   double beyond;  // m
 };
 
-LinkFeatures features_of(const FragmentEnd& end, const JunctionPlace& junction) {
+LinkFeatures features_of(const FragmentEnd& end, const JunctionPlace& junction, double radius) {
   const Vector3d way = junction.target.position - end.position;
-  const double gap = way.norm();
+  const double gap = way.norm() / radius;
   const double angle = angle_between(end.outward, way);
-  return {1, std::log(gap + shortest), gap, angle, angle * angle, junction.beyond, 0, 0};
+  return {1, std::log(gap + shortest), gap, angle, angle * angle, junction.beyond / radius, 0, 0};
 }
 
 std::vector<JunctionPlace> junction_places(const std::vector<Fragment>& fragments, std::size_t of,
@@ -149,7 +149,7 @@ public:
   // Links to the cheapest junction of the other fragment, with the paper's cost of a join (Section 4).
   void to_junction(std::size_t first, std::size_t second) {
     const Fragment& f = fragments_[first];
-    constexpr double metres_for_a_radian = 0.1125;
+    const double metres_for_a_radian = 9 * kind_.radius;
     for (std::size_t i = 0; i < f.ends.size(); ++i) {
       const FragmentEnd& end = f.ends[i];
       const auto cost = [&](const JunctionPlace& place) {
@@ -159,9 +159,9 @@ public:
       const JunctionPlace& cheapest = *std::ranges::min_element(places_[second], {}, cost);
       const Vector3d way_back = end.position - cheapest.target.position;
       if (!may_span(way_back.norm(), f, fragments_[second])) continue;
-      take_if_likely(
-          {LinkKind::junction, first, i, cheapest.target, way_back.norm(), features_of(end, cheapest)}, end,
-          {cheapest.target.node, cheapest.target.position, way_back.normalized()});
+      take_if_likely({LinkKind::junction, first, i, cheapest.target, way_back.norm(),
+                      features_of(end, cheapest, kind_.radius)},
+                     end, {cheapest.target.node, cheapest.target.position, way_back.normalized()});
     }
   }
 

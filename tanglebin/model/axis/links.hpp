@@ -15,12 +15,13 @@ namespace tanglebin {
 
 /// The features of a link. Between two ends p and q, let v = q − p, d1 the direction out of the first and d2
 /// that into the second, and α = angle(d1, v) + angle(d2, v) as in the paper's Section 4, or angle(d1, d2) if
-/// the ends are nearer than a radius. The features are: 1; ln(|v| + 2 mm); |v|; α; α²; angle(d1, d2); the
+/// the ends are nearer than a radius. Lengths are in radii. The features are: 1; ln(|v| + 0.16); |v|; α; α²;
+/// angle(d1, d2); the
 /// fraction of the way on which the sensor saw past a tube; and how far other fragments obstruct the way, as
 /// the square root of the mean of Obstacles::overlap() along it, ignoring what is within a diameter of the
 /// ends. The way is straight or curved, whichever was seen less to be empty and, if equal, is less
 /// obstructed. From an end to a junction at q, α = angle(d1, v), and angle(d1, d2) is replaced by the
-/// distance of q beyond the end of its fragment, m.
+/// distance of q beyond the end of its fragment.
 inline constexpr std::size_t link_features = 8;
 using LinkFeatures = std::array<double, link_features>;
 
@@ -49,9 +50,9 @@ struct LinkWeights {
 
 /// Learned by `tanglebin learn` from recipes/learning.toml, rounded to four decimals.
 inline constexpr LinkWeights learned_weights = {
-    .chain_ends = {-2.2312, -3.7453, 13.2863, -9.4385, 0.3799, 2.8333, -17.6030, -17.5214},
-    .tree_ends = {2.6783, -1.6190, -14.3953, -8.7563, 0.6780, 3.8984, -13.9106, -4.9356},
-    .junction = {1.1381, -0.6121, -23.2969, -9.2636, 2.6539, -66.4758, -23.7967, 0.2102},
+    .chain_ends = {14.1808, -3.7453, 0.1661, -9.4385, 0.3799, 2.8333, -17.6030, -17.5214},
+    .tree_ends = {9.7728, -1.6190, -0.1799, -8.7563, 0.6780, 3.8984, -13.9106, -4.9356},
+    .junction = {3.8203, -0.6121, -0.2912, -9.2636, 2.6539, -0.8309, -23.7967, 0.2102},
 };
 
 /// Where a link leads.

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <unordered_map>
 #include <utility>
 
+#include "tanglebin/base/median.hpp"
 #include "tanglebin/model/axis/voxel.hpp"
 
 namespace tanglebin {
@@ -22,7 +24,8 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 struct Voxel {
   Vector3i key;
-  Vector3d sum = Vector3d::Zero();  // of its points
+  Vector3d sum = Vector3d::Zero();      // of its points
+  Vector3d normals = Vector3d::Zero();  // sum of their normals
   std::size_t points = 0;
   std::vector<std::size_t> neighbours{};  // touching voxels
 
@@ -48,7 +51,8 @@ struct VoxelGrid {
   std::vector<std::size_t> of_points;  // for each point its voxel; none if the point is not finite
 };
 
-VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, double size) {
+VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
+                      double size) {
   VoxelGrid grid{{}, std::vector(points.size(), none)};
   std::unordered_map<std::uint64_t, std::size_t> at;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -59,6 +63,7 @@ VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, double size) {
     if (is_new) grid.voxels.push_back({key});
     Voxel& voxel = grid.voxels[found->second];
     voxel.sum += point;
+    if (!normals.empty()) voxel.normals += normals[i].cast<double>();
     ++voxel.points;
     grid.of_points[i] = found->second;
   }
@@ -74,10 +79,20 @@ VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, double size) {
   return grid;
 }
 
-std::vector<std::vector<std::size_t>> connected_components(const std::vector<Voxel>& voxels) {
+// Cuts the links of a voxel to its neighbours.
+void isolate(std::vector<Voxel>& voxels, std::size_t voxel) {
+  for (const std::size_t neighbour : voxels[voxel].neighbours)
+    std::erase(voxels[neighbour].neighbours, voxel);
+  voxels[voxel].neighbours.clear();
+}
+
+// The connected components of a set of voxels, to which all their neighbours belong.
+std::vector<std::vector<std::size_t>> connected_components(const std::vector<Voxel>& voxels,
+                                                           const std::vector<std::size_t>& members,
+                                                           std::vector<bool>& seen) {
   std::vector<std::vector<std::size_t>> components;
-  std::vector<bool> seen(voxels.size());
-  for (std::size_t first = 0; first < voxels.size(); ++first) {
+  for (const std::size_t member : members) seen[member] = false;
+  for (const std::size_t first : members) {
     if (seen[first]) continue;
     std::vector<std::size_t> component{first};
     seen[first] = true;
@@ -99,8 +114,12 @@ public:
   TreeMaker(const std::vector<Voxel>& voxels, double step)
       : voxels_(voxels), step_(step), distances_(voxels.size()), nodes_(voxels.size(), none) {}
 
+  /// The node of the last tree that a voxel of its component belongs to.
+  std::size_t node_of(std::size_t voxel) const { return nodes_[voxel]; }
+
   // The nodes are level sets of the distance from one end, as in a Reeb graph.
   Skeleton tree(std::vector<std::size_t> component) {
+    for (const std::size_t voxel : component) nodes_[voxel] = none;
     measure_from(component.front(), component);
     const std::size_t end =
         *std::ranges::max_element(component, {}, [&](std::size_t v) { return distances_[v]; });
@@ -202,6 +221,18 @@ public:
     return result;
   }
 
+  /// The nodes from which more than one long path goes down, ascending.
+  std::vector<std::size_t> forks() const {
+    std::vector<std::size_t> result;
+    for (const std::size_t node : branches()) {
+      const std::size_t fork = whole_.parents[node];
+      // The other path must be long too.
+      if (below_[fork] >= branch_min_) result.push_back(fork);
+    }
+    std::ranges::sort(result);
+    return result;
+  }
+
 private:
   // The longest path down from the node's parent through the node, m.
   double through(std::size_t node) const {
@@ -244,21 +275,175 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// Cuts connected sets of voxels until each piece looks like a tube.
+class Cutter {
+public:
+  Cutter(VoxelGrid& grid, double step, const CutSettings& settings)
+      : grid_(grid),
+        settings_(settings),
+        maker_(grid.voxels, step),
+        seen_(grid.voxels.size()),
+        skeleton_of_(grid.voxels.size(), none) {}
+
+  void take_all(const std::vector<std::size_t>& members, int cuts = 0) {
+    for (const std::vector<std::size_t>& component : connected_components(grid_.voxels, members, seen_))
+      take(component, cuts);
+  }
+
+  void take_strong(const std::vector<std::size_t>& all) {
+    for (const std::vector<std::size_t>& component : connected_components(grid_.voxels, all, seen_))
+      take_strong_of(component);
+  }
+
+  void take_strong_of(const std::vector<std::size_t>& members) {
+    const double least = settings_.weak_max * median_of_votes(members);
+    take_all(without(
+        members, [&](std::size_t voxel) { return static_cast<double>(grid_.voxels[voxel].points) < least; }));
+  }
+
+  std::vector<Skeleton> skeletons() {
+    for (std::size_t i = 0; i < grid_.of_points.size(); ++i) {
+      if (grid_.of_points[i] == none) continue;
+      const std::size_t skeleton = skeleton_of_[grid_.of_points[i]];
+      if (skeleton != none) skeletons_[skeleton].points.push_back(i);
+    }
+    return std::move(skeletons_);
+  }
+
+private:
+  // A component that is left after this number of cuts.
+  void take(const std::vector<std::size_t>& component, int cuts) {
+    const Skeleton whole = maker_.tree(component);
+    Skeleton skeleton = Pruner(whole, settings_.branch_min).pruned();
+    if (looks_like_a_tube(skeleton, component)) {
+      if (cuts > 0 && !is_round(component)) return;
+      for (const std::size_t member : component) skeleton_of_[member] = skeletons_.size();
+      skeletons_.push_back(std::move(skeleton));
+    } else if (cuts < static_cast<int>(weak_shares.size()) + fork_cuts) {
+      take_all(without_weak_or_forks(component, whole, cuts), cuts + 1);
+    }
+  }
+
+  // Nearly all votes are near the skeleton, which has branches only if tubes have.
+  bool looks_like_a_tube(const Skeleton& skeleton, const std::vector<std::size_t>& component) const {
+    if (!settings_.may_branch && has_branches(skeleton)) return false;
+    std::size_t near = 0;
+    std::size_t all = 0;
+    for (const std::size_t member : component) {
+      const Voxel& voxel = grid_.voxels[member];
+      all += voxel.points;
+      const Vector3d mean = voxel.mean();
+      if (std::ranges::any_of(skeleton.nodes, [&](const Vector3d& node) {
+            return (node - mean).norm() < settings_.spread_max;
+          }))
+        near += voxel.points;
+    }
+    return static_cast<double>(near) >= settings_.share_min * static_cast<double>(all);
+  }
+
+  // Seen from more than one side: the normals that lead to one place of the axis differ.
+  bool is_round(const std::vector<std::size_t>& component) const {
+    double sum = 0;
+    double votes = 0;
+    for (const std::size_t member : component) {
+      sum += grid_.voxels[member].normals.norm();
+      votes += static_cast<double>(grid_.voxels[member].points);
+    }
+    return sum < settings_.parallel_max * votes;
+  }
+
+  static bool has_branches(const Skeleton& skeleton) {
+    std::vector<int> children(skeleton.nodes.size());
+    for (std::size_t node = 1; node < skeleton.nodes.size(); ++node) ++children[skeleton.parents[node]];
+    for (std::size_t node = 0; node < children.size(); ++node) {
+      if (children[node] > (node == 0 ? 2 : 1)) return true;
+    }
+    return false;
+  }
+
+  // First goes what has few votes, then what is at the forks of the tree.
+  std::vector<std::size_t> without_weak_or_forks(const std::vector<std::size_t>& component,
+                                                 const Skeleton& whole, int cuts) {
+    if (cuts < static_cast<int>(weak_shares.size())) {
+      const double least = weak_shares[static_cast<std::size_t>(cuts)] * median_of_votes(component);
+      return without(component, [&](std::size_t voxel) {
+        return static_cast<double>(grid_.voxels[voxel].points) < least;
+      });
+    }
+    const std::vector<std::size_t> forks = Pruner(whole, settings_.branch_min).forks();
+    return without(component, [&](std::size_t voxel) {
+      return std::ranges::binary_search(forks, maker_.node_of(voxel));
+    });
+  }
+
+  template <typename Goes>
+  std::vector<std::size_t> without(const std::vector<std::size_t>& component, const Goes& goes) {
+    std::vector<std::size_t> rest;
+    for (const std::size_t voxel : component) {
+      if (goes(voxel)) {
+        isolate(grid_.voxels, voxel);
+      } else {
+        rest.push_back(voxel);
+      }
+    }
+    return rest;
+  }
+
+  double median_of_votes(const std::vector<std::size_t>& component) const {
+    std::vector<std::size_t> votes;
+    std::size_t sum = 0;
+    for (const std::size_t voxel : component) {
+      votes.push_back(grid_.voxels[voxel].points);
+      sum += votes.back();
+    }
+    std::ranges::sort(votes);
+    std::size_t below = 0;
+    for (const std::size_t count : votes) {
+      below += count;
+      if (2 * below >= sum) return static_cast<double>(count);
+    }
+    return 0;
+  }
+
+  static constexpr std::array weak_shares = {0.125, 0.25, 0.5};  // of the median number of votes
+  static constexpr int fork_cuts = 2;
+
+  VoxelGrid& grid_;
+  const CutSettings& settings_;
+  TreeMaker maker_;
+  std::vector<bool> seen_;
+  std::vector<std::size_t> skeleton_of_;  // of each voxel; none if it is in none
+  std::vector<Skeleton> skeletons_;
+};
+
+std::vector<std::size_t> all_of(const VoxelGrid& grid) {
+  std::vector<std::size_t> all(grid.voxels.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+}  // namespace
+
 std::vector<Skeleton> find_skeletons(const std::vector<Eigen::Vector3f>& points, double voxel, double step,
                                      double branch_min) {
-  const VoxelGrid grid = fill_voxels(points, voxel);
-  TreeMaker maker(grid.voxels, step);
-  std::vector<Skeleton> skeletons;
-  std::vector<std::size_t> skeleton_of(grid.voxels.size());
-  for (const std::vector<std::size_t>& component : connected_components(grid.voxels)) {
-    for (const std::size_t member : component) skeleton_of[member] = skeletons.size();
-    const Skeleton whole = maker.tree(component);
-    skeletons.push_back(Pruner(whole, branch_min).pruned());
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (grid.of_points[i] != none) skeletons[skeleton_of[grid.of_points[i]]].points.push_back(i);
-  }
-  return skeletons;
+  return find_skeletons(points, {}, voxel, step,
+                        {.branch_min = branch_min,
+                         .spread_max = std::numeric_limits<double>::infinity(),
+                         .share_min = 0,
+                         .weak_max = 0,
+                         .parallel_max = 1,
+                         .may_branch = true});
+}
+
+std::vector<Skeleton> find_skeletons(const std::vector<Eigen::Vector3f>& points,
+                                     const std::vector<Eigen::Vector3f>& normals, double voxel, double step,
+                                     const CutSettings& settings) {
+  VoxelGrid grid = fill_voxels(points, normals, voxel);
+  Cutter cutter(grid, step, settings);
+  cutter.take_strong(all_of(grid));
+  return cutter.skeletons();
 }
 
 }  // namespace tanglebin

@@ -13,10 +13,27 @@ struct Skeleton {
   std::vector<std::size_t> parents;    ///< for each node, a connected earlier one; 0 for the first
 };
 
+/// What a set of votes must look like to be of one tube.
+struct CutSettings {
+  double branch_min;    ///< m, as for find_skeletons()
+  double spread_max;    ///< m; votes are this near to the skeleton
+  double share_min;     ///< share of the votes that must be
+  double weak_max;      ///< median numbers of votes; voxels with fewer are left out from the start
+  double parallel_max;  ///< length of the mean of the normals in a voxel; more is a plane
+  bool may_branch;      ///< whether the skeleton may have branches
+};
+
 /// Finds connected thin sets of points (m; NaN points are in none). Points in touching voxels of size `voxel`
 /// belong to one set. The nodes of its tree are about `step` apart along the set. The tree keeps the longest
 /// path from the first node, and branches of at least `branch_min`.
 std::vector<Skeleton> find_skeletons(const std::vector<Eigen::Vector3f>& points, double voxel, double step,
                                      double branch_min);
+
+/// The same, but a set that does not look like one tube is cut: at the voxels with the fewest votes, then
+/// where its tree forks. Pieces that cannot be cut any more and still do not look like a tube are left out,
+/// and so are the voxels at the cuts.
+std::vector<Skeleton> find_skeletons(const std::vector<Eigen::Vector3f>& points,
+                                     const std::vector<Eigen::Vector3f>& normals, double voxel, double step,
+                                     const CutSettings& settings);
 
 }  // namespace tanglebin

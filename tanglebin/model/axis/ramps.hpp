@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "tanglebin/geometry/camera.hpp"
+#include "tanglebin/model/axis/axis_settings.hpp"
+
+namespace tanglebin {
+
+/// What a scanner makes of the edges of surfaces.
+struct Ramps {
+  std::vector<bool>
+      points;      ///< for each point: whether it is on a ramp, or so near that it may be bent by it
+  double blended;  ///< share of the edges with a point half-way between their two surfaces
+};
+
+/// Finds ramps. A scanner that averages over an edge leaves a few points between the near surface and the far
+/// one, in a row or a column of the image: a run of steep steps in one direction, over more depth than the
+/// flank of a tube of this radius (m) has. Points are in m, in the frame of the camera's pose. Where
+/// neighbouring pixels have no points, there are no ramps.
+Ramps find_ramps(const std::vector<Eigen::Vector3f>& points, const Camera& camera, double radius,
+                 const RampSettings& settings);
+
+}  // namespace tanglebin
