@@ -89,8 +89,7 @@ public:
 
   Ramps found(std::size_t points) const {
     Ramps ramps{std::vector<bool>(points), 0};
-    if (edges_ == 0) return ramps;
-    ramps.blended = static_cast<double>(blended_) / static_cast<double>(edges_);
+    if (edges_ > 0) ramps.blended = static_cast<double>(blended_) / static_cast<double>(edges_);
     for (const Run& run : runs_) mark(run, ramps.points);
     return ramps;
   }

@@ -273,10 +273,6 @@ private:
   std::vector<bool> kept_;
 };
 
-}  // namespace
-
-namespace {
-
 /// Cuts connected sets of voxels until each piece looks like a tube.
 class Cutter {
 public:
@@ -287,20 +283,9 @@ public:
         seen_(grid.voxels.size()),
         skeleton_of_(grid.voxels.size(), none) {}
 
-  void take_all(const std::vector<std::size_t>& members, int cuts = 0) {
+  void cut(const std::vector<std::size_t>& members) {
     for (const std::vector<std::size_t>& component : connected_components(grid_.voxels, members, seen_))
-      take(component, cuts);
-  }
-
-  void take_strong(const std::vector<std::size_t>& all) {
-    for (const std::vector<std::size_t>& component : connected_components(grid_.voxels, all, seen_))
-      take_strong_of(component);
-  }
-
-  void take_strong_of(const std::vector<std::size_t>& members) {
-    const double least = settings_.weak_max * median_of_votes(members);
-    take_all(without(
-        members, [&](std::size_t voxel) { return static_cast<double>(grid_.voxels[voxel].points) < least; }));
+      take_all(without_weak(component, settings_.weak_max), 0);
   }
 
   std::vector<Skeleton> skeletons() {
@@ -313,16 +298,24 @@ public:
   }
 
 private:
-  // A component that is left after this number of cuts.
-  void take(const std::vector<std::size_t>& component, int cuts) {
+  void take_all(const std::vector<std::size_t>& members, std::size_t cuts) {
+    for (const std::vector<std::size_t>& component : connected_components(grid_.voxels, members, seen_))
+      take(component, cuts);
+  }
+
+  // A component that is left after this number of cuts: of weak voxels and of forks, by turns.
+  void take(const std::vector<std::size_t>& component, std::size_t cuts) {
     const Skeleton whole = maker_.tree(component);
     Skeleton skeleton = Pruner(whole, settings_.branch_min).pruned();
     if (looks_like_a_tube(skeleton, component)) {
       if (cuts > 0 && !is_round(component)) return;
       for (const std::size_t member : component) skeleton_of_[member] = skeletons_.size();
       skeletons_.push_back(std::move(skeleton));
-    } else if (cuts < static_cast<int>(weak_shares.size()) + fork_cuts) {
-      take_all(without_weak_or_forks(component, whole, cuts), cuts + 1);
+    } else if (cuts < 2 * weak_shares.size()) {
+      const bool is_weak_next = cuts % 2 == 0;
+      take_all(
+          is_weak_next ? without_weak(component, weak_shares[cuts / 2]) : without_forks(component, whole),
+          cuts + 1);
     }
   }
 
@@ -363,15 +356,16 @@ private:
     return false;
   }
 
-  // First goes what has few votes, then what is at the forks of the tree.
-  std::vector<std::size_t> without_weak_or_forks(const std::vector<std::size_t>& component,
-                                                 const Skeleton& whole, int cuts) {
-    if (cuts < static_cast<int>(weak_shares.size())) {
-      const double least = weak_shares[static_cast<std::size_t>(cuts)] * median_of_votes(component);
-      return without(component, [&](std::size_t voxel) {
-        return static_cast<double>(grid_.voxels[voxel].points) < least;
-      });
-    }
+  // Without the voxels that have fewer votes than this share of the median.
+  std::vector<std::size_t> without_weak(const std::vector<std::size_t>& component, double share) {
+    const double least = share * median_of_votes(component);
+    return without(component, [&](std::size_t voxel) {
+      return static_cast<double>(grid_.voxels[voxel].points) < least;
+    });
+  }
+
+  // Without the voxels where long branches of the tree part.
+  std::vector<std::size_t> without_forks(const std::vector<std::size_t>& component, const Skeleton& whole) {
     const std::vector<std::size_t> forks = Pruner(whole, settings_.branch_min).forks();
     return without(component, [&](std::size_t voxel) {
       return std::ranges::binary_search(forks, maker_.node_of(voxel));
@@ -391,6 +385,7 @@ private:
     return rest;
   }
 
+  // Of the votes, each with the number of votes in its voxel.
   double median_of_votes(const std::vector<std::size_t>& component) const {
     std::vector<std::size_t> votes;
     std::size_t sum = 0;
@@ -408,7 +403,6 @@ private:
   }
 
   static constexpr std::array weak_shares = {0.125, 0.25, 0.5};  // of the median number of votes
-  static constexpr int fork_cuts = 2;
 
   VoxelGrid& grid_;
   const CutSettings& settings_;
@@ -442,7 +436,7 @@ std::vector<Skeleton> find_skeletons(const std::vector<Eigen::Vector3f>& points,
                                      const CutSettings& settings) {
   VoxelGrid grid = fill_voxels(points, normals, voxel);
   Cutter cutter(grid, step, settings);
-  cutter.take_strong(all_of(grid));
+  cutter.cut(all_of(grid));
   return cutter.skeletons();
 }
 

@@ -108,5 +108,81 @@ TEST(Skeletons, OfAPointAreOneNode) {
   EXPECT_TRUE(find_skeletons({}, voxel, step, branch_min).empty());
 }
 
+/// Votes with the normals that led to them.
+struct Votes {
+  std::vector<Vector3f> points;
+  std::vector<Vector3f> normals;
+
+  // `count` votes along a line, seen from all sides above.
+  void add_tube(const Vector3d& from, const Vector3d& to, int count) {
+    for (int i = 0; i < count; ++i) {
+      points.push_back((from + (to - from) * i / count).cast<float>());
+      const double angle = std::numbers::pi * (i % 7) / 6;
+      normals.push_back(Vector3d(0, std::cos(angle), std::sin(angle)).cast<float>());
+    }
+  }
+};
+
+constexpr CutSettings cut{.branch_min = branch_min,
+                          .spread_max = 0.006,
+                          .share_min = 0.85,
+                          .weak_max = 0,
+                          .parallel_max = 0.96,
+                          .may_branch = false};
+
+std::vector<Skeleton> pieces_of(const Votes& votes, const CutSettings& settings = cut) {
+  return find_skeletons(votes.points, votes.normals, voxel, step, settings);
+}
+
+TEST(Skeletons, OfTwoTubesAreCutAtAWeakBridge) {
+  Votes votes;
+  votes.add_tube({-0.1, 0, 0}, {0.1, 0, 0}, 4000);
+  votes.add_tube({0, -0.1, 0.03}, {0, 0.1, 0.03}, 4000);
+  const std::size_t of_tubes = votes.points.size();
+  votes.add_tube({0, 0, 0}, {0, 0, 0.03}, 30);  // a ramp from one to the other
+  const std::vector<Skeleton> found = pieces_of(votes);
+  ASSERT_EQ(found.size(), 2U);
+  for (const Skeleton& skeleton : found) {
+    EXPECT_EQ(leaves_of(skeleton), 2U);
+    EXPECT_NEAR(length_of(skeleton), 0.2, 0.01);
+    EXPECT_NEAR(static_cast<double>(skeleton.points.size()), 4000, 100);
+  }
+  EXPECT_LE(found[0].points.size() + found[1].points.size(), of_tubes + 5);
+}
+
+TEST(Skeletons, OfAChainAreCutWhereItForks) {
+  Votes votes;
+  votes.add_tube({-0.1, 0, 0}, {0.1, 0, 0}, 4000);
+  votes.add_tube({0, 0, 0}, {0, 0.1, 0}, 2000);
+  const std::vector<Skeleton> found = pieces_of(votes);
+  ASSERT_EQ(found.size(), 3U);
+  for (const Skeleton& skeleton : found) EXPECT_NEAR(length_of(skeleton), 0.1, 0.02);
+  CutSettings tree = cut;
+  tree.may_branch = true;
+  EXPECT_EQ(pieces_of(votes, tree).size(), 1U);
+}
+
+TEST(Skeletons, AreNotCutOutOfAPlane) {
+  Votes votes;
+  Rng rng(5);
+  for (int i = 0; i < 20000; ++i) {
+    votes.points.push_back(Vector3d(uniform_real(rng, 0, 0.2), uniform_real(rng, 0, 0.1), 0).cast<float>());
+    votes.normals.emplace_back(0, 0, 1);
+  }
+  EXPECT_TRUE(pieces_of(votes).empty());
+}
+
+TEST(Skeletons, LeaveOutWeakVoxelsFromTheStart) {
+  Votes votes;
+  votes.add_tube({0, 0, 0}, {0.1, 0, 0}, 4000);
+  votes.add_tube({0.1, 0, 0}, {0.13, 0, 0.03}, 40);  // what a ramp adds to the end
+  ASSERT_EQ(pieces_of(votes).size(), 1U);
+  EXPECT_GT(length_of(pieces_of(votes)[0]), 0.13);
+  CutSettings strong = cut;
+  strong.weak_max = 0.1;
+  ASSERT_EQ(pieces_of(votes, strong).size(), 1U);
+  EXPECT_NEAR(length_of(pieces_of(votes, strong)[0]), 0.1, 0.01);
+}
+
 }  // namespace
 }  // namespace tanglebin
