@@ -195,6 +195,7 @@ double scatter_about(double middle, std::vector<double> values) {
 RadiusEstimate refined(const PixelGrid& grid, double radius, const RadiusRange& range) {
   constexpr int rounds_max = 10;
   constexpr double settled = 0.002;
+  constexpr double uncertain = 0.04;
   for (int round = 1;; ++round) {
     const std::vector<Sighting> sightings = look_closely(grid, radius);
     const std::size_t places = separate_places(grid, sightings, 2 * radius);
@@ -203,8 +204,12 @@ RadiusEstimate refined(const PixelGrid& grid, double radius, const RadiusRange& 
     const double scatter = scatter_about(next, radii_of(sightings));
     const double of_median = std::sqrt(std::numbers::pi / 2);  // against the mean
     const double standard_error = of_median * scatter / std::sqrt(static_cast<double>(places));
-    if (std::abs(next - radius) <= std::max(settled * next, standard_error))
+    if (std::abs(next - radius) <= std::max(settled * next, standard_error)) {
+      if (standard_error > uncertain * next)
+        give_up(
+            fmt::format("the radius is uncertain, {} ± {}", millimetres(next), millimetres(standard_error)));
       return {next, standard_error, scatter, round, places};
+    }
     if (round == rounds_max)
       give_up(
           fmt::format("the estimate does not settle, at {} or {}", millimetres(radius), millimetres(next)));
