@@ -49,5 +49,13 @@ TEST(RangeImage, OfAPlaceBesideTheCameraShowsNothing) {
   EXPECT_FALSE(image.hides(beside, beside, 2));
 }
 
+TEST(RangeImage, ShowsThatNoTubeIsInWhatIsSolid) {
+  const std::vector<Eigen::AlignedBox3d> wall = {{Vector3d(0.1, -1, 0), Vector3d(0.12, 1, 0.2)}};
+  const RangeImage image({}, small_camera(), wall);
+  EXPECT_TRUE(image.shows_empty({0.11, 0, 0.1}, 0.0125));
+  EXPECT_TRUE(image.shows_empty({0.095, 0, 0.1}, 0.0125)) << "nearer than half a radius";
+  EXPECT_FALSE(image.shows_empty({0.0875, 0, 0.1}, 0.0125)) << "touches it";
+}
+
 }  // namespace
 }  // namespace tanglebin
