@@ -115,6 +115,9 @@ public:
   /// The tables of the array under `key`, if any.
   std::vector<TomlTable> tables(std::string_view key) const;
 
+  /// Is there a string under `key`?
+  bool is_string(std::string_view key) const { return has(key) && find(key)->is_string(); }
+
   /// Is there an array under `key`?
   bool is_array(std::string_view key) const { return has(key) && find(key)->is_array(); }
 
