@@ -43,7 +43,7 @@ tanglebin_room(simulate     TARGET simulation  ROOMS base geometry cloud generat
 
 tanglebin_room(runs         TARGET datasets    ROOMS base io)
 tanglebin_room(dataset      TARGET datasets    ROOMS base geometry cloud io settle scan recipe simulate runs)
-tanglebin_room(experiment   TARGET datasets    ROOMS base cloud io model model/axis score recipe runs dataset)
+tanglebin_room(experiment   TARGET datasets    ROOMS base cloud io model model/axis scene score recipe runs dataset)
 tanglebin_room(report       TARGET datasets    ROOMS base geometry cloud io model/axis model/paper scan recipe
                                                      dataset experiment)
 tanglebin_room(cli          TARGET program      ROOMS base geometry cloud io model model/scene model/axis model/paper scene score

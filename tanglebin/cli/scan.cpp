@@ -36,7 +36,7 @@ struct ScanArguments {
   std::string out;
   std::optional<std::string> scene;
   std::string bin = "paper";
-  std::string scanner = "paper";
+  std::optional<std::string> scanner;
   std::vector<std::string> parameters;
   std::string seed = "0";
   bool with_bin = false;
@@ -153,12 +153,15 @@ void take_camera(const SceneCamera& camera, const ScanArguments& arguments, Scan
     throw InputError({*arguments.scene, 0, "camera"},
                      "a camera without pose, intrinsics or the size of its image", "all of them, or none");
   scanner.camera = camera_with(*camera.intrinsics, *camera.pose);
-  print_error("tanglebin: the camera is the scene's; --scanner {} says how it errs\n", arguments.scanner);
+  if (arguments.scanner)
+    print_error("tanglebin: the camera is the scene's; only the sensor is that of --scanner {}\n",
+                *arguments.scanner);
 }
 
 Setting setting_of(const ScanArguments& arguments) {
-  Setting setting{.scanner = scanner_with(arguments.scanner, arguments.parameters, "--parameter"),
-                  .support = {.bin = bin_preset(arguments.bin)}};
+  Setting setting{
+      .scanner = scanner_with(arguments.scanner.value_or("paper"), arguments.parameters, "--parameter"),
+      .support = {.bin = bin_preset(arguments.bin)}};
   if (arguments.scene) {
     const Scene scene = scene_named(*arguments.scene, arguments.configuration);
     take_camera(scene.camera, arguments, setting.scanner);
@@ -206,7 +209,7 @@ void add_scan(CLI::App& app) {
           "--scanner", arguments->scanner,
           "Scanner: paper (ideal), gaussian, zivid-one-plus-l or kinect-v1; its camera too, unless the "
           "scene has one")
-      ->capture_default_str();
+      ->option_text("NAME [paper]");
   command
       ->add_option("--parameter", arguments->parameters,
                    "Set a parameter of the scanner, such as scanner.baseline=0.3 (docs/sensor.md)")

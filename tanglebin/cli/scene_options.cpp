@@ -16,6 +16,7 @@
 #include "tanglebin/experiment/run.hpp"
 #include "tanglebin/io/read_file.hpp"
 #include "tanglebin/io/toml_table.hpp"
+#include "tanglebin/report/text.hpp"
 #include "tanglebin/scene/camera_file.hpp"
 #include "tanglebin/scene/read_scene.hpp"
 

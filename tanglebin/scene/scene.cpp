@@ -71,6 +71,11 @@ void validate(const Scene& scene) {
   for (std::size_t i = 0; i < scene.tubes.size(); ++i) validate(scene.tubes[i], fmt::format("tube[{}]", i));
 }
 
+bool is_empty(const Scene& scene) {
+  const auto& [intrinsics, pose, frame, unit, depth_scale] = scene.camera;
+  return !intrinsics && !pose && !frame && !unit && !depth_scale && !scene.support && scene.tubes.empty();
+}
+
 Scene scene_of(const KnownScene& known) {
   Scene scene{.camera = {.intrinsics = intrinsics_of(known.camera),
                          .pose = known.camera.pose,

@@ -51,6 +51,9 @@ struct Scene {
 /// "tube[0].radius".
 void validate(const Scene& scene);
 
+/// Whether nothing is known.
+bool is_empty(const Scene& scene);
+
 /// The scene of a cloud, m, world frame, about which all of this is known.
 Scene scene_of(const KnownScene& known);
 
