@@ -42,9 +42,9 @@ struct SceneCamera {
 
 /// What is known about a scene before its cloud is looked at: a scene file's contents (docs/formats.md).
 struct Scene {
-  SceneCamera camera;
-  std::optional<Support> support;
-  std::vector<TubeClass> tubes;  ///< empty: one class of which nothing is known
+  SceneCamera camera{};
+  std::optional<Support> support{};
+  std::vector<TubeClass> tubes{};  ///< empty: one class of which nothing is known
 };
 
 /// Throws InputError naming the field that is invalid, as a scene file names it: "camera.fx",
