@@ -230,6 +230,7 @@ Scene scene_of(const SceneOptions& options, const std::string& input) {
   Scene scene = options.scene ? scene_named(*options.scene, input) : Scene{};
   override_camera(options, input, scene);
   if (options.radius || options.length || !options.trees.empty()) override_tubes(options, scene.tubes);
+  validate(scene);
   return scene;
 }
 

@@ -237,6 +237,7 @@ ResolvedScene resolve(const Scene& scene, const PointCloud& cloud) {
     resolved.notes.emplace_back(
         "nothing is known of a bin or a floor; a scene file's [support] says what there is");
   find_kinds(scene, resolved);
+  validate(resolved.known);
   return resolved;
 }
 

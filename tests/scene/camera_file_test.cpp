@@ -23,12 +23,12 @@ Eigen::Isometry3d above() {
   return downward_camera(640, 480, 585, {0.1, 0.2, 1}).pose;
 }
 
-SceneCamera read(const std::string& text, std::optional<int> image = {}) {
+SceneCamera camera_of(const std::string& text, std::optional<int> image = {}) {
   return read_camera_text(text, "camera", image);
 }
 
 TEST(CameraFile, ReadsWhatScanWritesBesideADepthImage) {
-  const SceneCamera camera = read(camera_json(camera_with(expected_intrinsics, above())));
+  const SceneCamera camera = camera_of(camera_json(camera_with(expected_intrinsics, above())));
   EXPECT_EQ(camera.intrinsics, expected_intrinsics);
   ASSERT_TRUE(camera.pose);
   EXPECT_EQ(camera.pose->matrix(), above().matrix());
@@ -42,14 +42,14 @@ constexpr const char* open3d_intrinsic =
     R"({"height": 480, "intrinsic_matrix": [585.5, 0.0, 0.0, 0.0, 586.25, 0.0, 319.5, 241.0, 1.0], "width": 640})";
 
 TEST(CameraFile, ReadsOpen3DsPinholeCameraIntrinsic) {
-  const SceneCamera camera = read(open3d_intrinsic);
+  const SceneCamera camera = camera_of(open3d_intrinsic);
   EXPECT_EQ(camera.intrinsics, expected_intrinsics);
   EXPECT_FALSE(camera.pose);
   EXPECT_FALSE(camera.depth_scale);
 }
 
 TEST(CameraFile, ReadsOpen3DsPinholeCameraParametersWhoseExtrinsicLeadsFromTheWorldToTheCamera) {
-  const SceneCamera camera = read(
+  const SceneCamera camera = camera_of(
       std::string(R"({"class_name": "PinholeCameraParameters", "version_major": 1, "version_minor": 0,)") +
       R"("extrinsic": [1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, -0.1, 0.2, 1, 1], "intrinsic": )" +
       open3d_intrinsic + "}");
@@ -85,7 +85,7 @@ projection_matrix:
 }
 
 TEST(CameraFile, ReadsACalibrationFileOfRosAndTakesTheRectifiedImages) {
-  const SceneCamera camera = read(calibration_file("0.0, 0.0, 0.0, 0.0, 0.0"));
+  const SceneCamera camera = camera_of(calibration_file("0.0, 0.0, 0.0, 0.0, 0.0"));
   EXPECT_EQ(camera.intrinsics, expected_intrinsics);
   EXPECT_FALSE(camera.pose);
 }
@@ -132,18 +132,18 @@ header:
 }
 
 TEST(CameraFile, ReadsAPrintedCameraInfo) {
-  EXPECT_EQ(read(camera_info()).intrinsics, expected_intrinsics);
+  EXPECT_EQ(camera_of(camera_info()).intrinsics, expected_intrinsics);
 }
 
 TEST(CameraFile, ReadsACameraInfoOfRos1) {
   EXPECT_EQ(
-      read("height: 480\nwidth: 640\nD: []\nK: [585.5, 0.0, 319.5, 0.0, 586.25, 241.0, 0.0, 0.0, 1.0]\n")
+      camera_of("height: 480\nwidth: 640\nD: []\nK: [585.5, 0.0, 319.5, 0.0, 586.25, 241.0, 0.0, 0.0, 1.0]\n")
           .intrinsics,
       expected_intrinsics);
 }
 
 TEST(CameraFile, ReadsBopsCameraWhoseScaleIsInMillimetres) {
-  const SceneCamera camera = read(
+  const SceneCamera camera = camera_of(
       R"({"cx": 319.5, "cy": 241, "depth_scale": 0.1, "fx": 585.5, "fy": 586.25, "height": 480, "width": 640})");
   EXPECT_EQ(camera.intrinsics, expected_intrinsics);
   ASSERT_TRUE(camera.depth_scale);
@@ -156,11 +156,11 @@ const std::string bop_scene =
         "cam_R_w2c": [1, 0, 0, 0, -1, 0, 0, 0, -1], "cam_t_w2c": [-100.0, 200.0, 1000.0]}})";
 
 TEST(CameraFile, ReadsOneImageOfBopsSceneCameraWhichHasNoSize) {
-  const SceneCamera first = read(bop_scene, 0);
+  const SceneCamera first = camera_of(bop_scene, 0);
   EXPECT_EQ(first.intrinsics, (Intrinsics{0, 0, 585.5, 586.25, 319.5, 241}));
   EXPECT_FALSE(first.pose);
   EXPECT_EQ(first.depth_scale, 1000);
-  const SceneCamera third = read(bop_scene, 3);
+  const SceneCamera third = camera_of(bop_scene, 3);
   EXPECT_EQ(third.intrinsics->cx, 300);
   ASSERT_TRUE(third.pose);
   EXPECT_TRUE(third.pose->isApprox(above())) << third.pose->matrix();
@@ -168,14 +168,15 @@ TEST(CameraFile, ReadsOneImageOfBopsSceneCameraWhichHasNoSize) {
 }
 
 TEST(CameraFile, AsksWhichImageIsMeantOnlyIfThereAreSeveral) {
-  EXPECT_THAT(complaint([] { read(bop_scene); }), HasSubstr("camera: image: found the cameras of 2 images"));
-  EXPECT_THAT(complaint([] { read(bop_scene, 1); }),
+  EXPECT_THAT(complaint([] { camera_of(bop_scene); }),
+              HasSubstr("camera: image: found the cameras of 2 images"));
+  EXPECT_THAT(complaint([] { camera_of(bop_scene, 1); }),
               HasSubstr("image: found 1, expected one of 2 images, 0 to 3"));
-  EXPECT_NO_THROW(read(R"({"7": {"cam_K": [585.5, 0.0, 319.5, 0.0, 586.25, 241.0, 0.0, 0.0, 1.0]}})"));
+  EXPECT_NO_THROW(camera_of(R"({"7": {"cam_K": [585.5, 0.0, 319.5, 0.0, 586.25, 241.0, 0.0, 0.0, 1.0]}})"));
 }
 
 TEST(CameraFile, ARotationOfFewDigitsIsMadeExact) {
-  const SceneCamera camera = read(
+  const SceneCamera camera = camera_of(
       R"({"width": 640, "height": 480, "intrinsic_matrix": [585.5, 0, 0, 0, 585.5, 0, 319.5, 241, 1],
   "camera_to_world": [[0.866, 0.5, 0, 0.1], [0.5, -0.866, 0, 0], [0, 0, -1, 1], [0, 0, 0, 1]]})");
   ASSERT_TRUE(camera.pose);
@@ -215,12 +216,12 @@ TEST(CameraFile, SaysWhatIsWrong) {
       {std::string(1 << 17, ' ') + "a: 1", "bytes, expected a camera file"},
   };
   for (const auto& [text, message] : faults)
-    EXPECT_THAT(complaint([&] { read(text); }), HasSubstr(message)) << text.substr(0, 200);
+    EXPECT_THAT(complaint([&] { camera_of(text); }), HasSubstr(message)) << text.substr(0, 200);
 }
 
 TEST(CameraFile, NestingWithoutEndIsRefused) {
-  EXPECT_THAT(complaint([] { read(std::string(60000, '[')); }), HasSubstr("camera:"));
-  EXPECT_THAT(complaint([] { read("k: " + std::string(60000, '{')); }), HasSubstr("camera:"));
+  EXPECT_THAT(complaint([] { camera_of(std::string(60000, '[')); }), HasSubstr("camera:"));
+  EXPECT_THAT(complaint([] { camera_of("k: " + std::string(60000, '{')); }), HasSubstr("camera:"));
 }
 
 }  // namespace
