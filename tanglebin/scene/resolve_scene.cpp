@@ -187,10 +187,14 @@ void move(PointCloud& cloud, const Isometry3d& motion) {
   for (Eigen::Vector3f& point : cloud.points) point = (motion * point.cast<double>()).cast<float>();
 }
 
-double radius_from(const PointCloud& cloud, const KnownScene& known) {
-  if (is_in_support_frame(known)) return estimate_radius(cloud, known);
+double radius_from(const PointCloud& cloud, const KnownScene& known,
+                   const std::optional<LengthRange>& range) {
   const Seen seen = in_support_frame(cloud, known);
-  return estimate_radius(seen.cloud, seen.known);
+  const double radius = estimate_radius(seen.cloud, seen.known);
+  if (range && (radius < range->min || radius > range->max))
+    throw InputError({"", 0, "radius"}, fmt::format("tubes of {:.5f} m", radius),
+                     fmt::format("{} to {} m", range->min, range->max));
+  return radius;
 }
 
 // A radius that is exactly known, or else 0.
@@ -214,7 +218,7 @@ void find_kinds(const Scene& scene, ResolvedScene& resolved) {
         throw InputError({"", 0, "radius"},
                          fmt::format("{} classes of tubes, one without a radius", classes.size()),
                          "a number for each; only the radius of a single class can be estimated");
-      kind.radius = radius_from(resolved.cloud, resolved.known);
+      kind.radius = radius_from(resolved.cloud, resolved.known, tubes.radius);
       resolved.notes.push_back(fmt::format("the radius is estimated: {:.5f} m", kind.radius));
     }
     resolved.known.kinds.push_back(kind);

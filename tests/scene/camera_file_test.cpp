@@ -204,7 +204,7 @@ TEST(CameraFile, SaysWhatIsWrong) {
            matrix + "}",
        "camera_to_world: found a matrix that is no rigid motion"},
       {calibration_file("-0.25, 0.1, 0.0, 0.0, 0.0"),
-       "camera:9: distortion_coefficients: found [-0.25, 0.1, 0, 0, 0], expected zeros"},
+       "camera:10: distortion_coefficients: found [-0.25, 0.1, 0, 0, 0], expected zeros"},
       {camera_info("2"), "binning_x: found a binned image"},
       {"width: 640\nheight: 480\n", "found 0 numbers, expected 9 numbers"},
       {"width: x\nheight: 480\nk: [585.5, 0, 319.5, 0, 586.25, 241, 0, 0, 1]", "camera:1: width: found 'x'"},
