@@ -215,8 +215,9 @@ TEST(CameraFile, SaysWhatIsWrong) {
       {"ply\nformat ascii 1.0\n", "camera:"},
       {std::string(1 << 17, ' ') + "a: 1", "bytes, expected a camera file"},
   };
+  const auto complaint_of = [](const std::string& text) { return complaint([&] { camera_of(text); }); };
   for (const auto& [text, message] : faults)
-    EXPECT_THAT(complaint([&] { camera_of(text); }), HasSubstr(message)) << text.substr(0, 200);
+    EXPECT_THAT(complaint_of(text), HasSubstr(message)) << text.substr(0, 200);
 }
 
 TEST(CameraFile, NestingWithoutEndIsRefused) {

@@ -210,8 +210,8 @@ TEST(SceneFile, ErrorsNameLineAndKey) {
       {"[tube]\nradius = 0.01\n", "tube: found a table, expected an array of tables [[tube]]"},
       {"[camera\n", "scene.toml:1: "},
   };
-  for (const auto& [text, message] : faults)
-    EXPECT_THAT(complaint([&] { read(text); }), HasSubstr(message)) << text;
+  const auto complaint_of = [](const std::string& text) { return complaint([&] { read(text); }); };
+  for (const auto& [text, message] : faults) EXPECT_THAT(complaint_of(text), HasSubstr(message)) << text;
 }
 
 // Numbers of every size, in few and in many digits.
