@@ -120,6 +120,24 @@ std::vector<Output> outputs(const ScanArguments& arguments) {
   return files;
 }
 
+// The files with their contents, all before the first is written: one that cannot be made leaves none behind.
+std::vector<std::pair<std::string, std::string>> contents(const ScanArguments& arguments,
+                                                          const std::vector<Tube>& tubes, const Bin& bin,
+                                                          const Scan& view) {
+  std::vector<std::pair<std::string, std::string>> files{
+      {arguments.out, cloud_bytes(arguments, view, largest_id(tubes))}};
+  if (arguments.depth) {
+    files.emplace_back(*arguments.depth, depth_png(depth_image(view)));
+    files.emplace_back(camera_file(*arguments.depth), camera_json(view.camera));
+  }
+  if (arguments.labels) files.emplace_back(*arguments.labels, label_png(label_image(view)));
+  if (arguments.picture) {
+    const Picture picture = picture_of_scan(scan(tubes, bin, view.camera), view, arguments.configuration);
+    files.emplace_back(*arguments.picture, color_png(picture.width, picture.height, picture.pixels));
+  }
+  return files;
+}
+
 void scan_configuration(const ScanArguments& arguments) {
   expect_outputs(outputs(arguments));
   const Scanner scanner = scanner_with(arguments.scanner, arguments.parameters, "--parameter");
@@ -130,16 +148,7 @@ void scan_configuration(const ScanArguments& arguments) {
       read_input(arguments.configuration, [](auto&&... from) { return read_configuration(from...); });
   const Scan view = scan(tubes, bin, scanner.camera, scanner.sensor, seed);
   if (!tubes.empty() && !shows_a_tube(view)) warn_of_no_tube(scanner.camera, tubes);
-  write_output(arguments.out, cloud_bytes(arguments, view, largest_id(tubes)));
-  if (arguments.depth) {
-    write_output(*arguments.depth, depth_png(depth_image(view)));
-    write_output(camera_file(*arguments.depth), camera_json(view.camera));
-  }
-  if (arguments.labels) write_output(*arguments.labels, label_png(label_image(view)));
-  if (arguments.picture) {
-    const Picture picture = picture_of_scan(scan(tubes, bin, scanner.camera), view, arguments.configuration);
-    write_output(*arguments.picture, color_png(picture.width, picture.height, picture.pixels));
-  }
+  for (const auto& [file, bytes] : contents(arguments, tubes, bin, view)) write_output(file, bytes);
   if (!take_standard_output(outputs(arguments))) print_summary(arguments, view, tubes);
 }
 

@@ -124,8 +124,7 @@ PointCloud labelled(PointCloud cloud, std::vector<std::int32_t> labels) {
   cloud.labels = std::move(labels);
   if (!are_colors_of_labels(cloud.colors)) return cloud;
   const auto last = std::ranges::max_element(cloud.labels);
-  const std::vector<Color> colors =
-      label_colors(last == cloud.labels.end() ? 0 : std::max(bin_label, *last));
+  const std::vector<Color> colors = label_colors(last == cloud.labels.end() ? 0 : std::max(bin_label, *last));
   cloud.colors.clear();
   cloud.colors.reserve(cloud.labels.size());
   for (const std::int32_t label : cloud.labels)

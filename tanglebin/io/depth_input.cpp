@@ -71,13 +71,12 @@ std::vector<float> read_values(CloudInput& input, std::size_t size, double steps
   depths.reserve(std::min(size, input.remaining() / sizeof(Value)));
   while (depths.size() < size) {
     const std::size_t wanted = std::min(piece, size - depths.size());
-    const std::size_t bytes =
-        input.read(reinterpret_cast<std::byte*>(values.data()), wanted * sizeof(Value));
+    const std::size_t bytes = input.read(reinterpret_cast<std::byte*>(values.data()), wanted * sizeof(Value));
     if (bytes < wanted * sizeof(Value)) {
-      throw InputError(input.place_in_file(),
-                       fmt::format("{} values before the end of the file",
-                                   depths.size() + bytes / sizeof(Value)),
-                       std::to_string(size));
+      throw InputError(
+          input.place_in_file(),
+          fmt::format("{} values before the end of the file", depths.size() + bytes / sizeof(Value)),
+          std::to_string(size));
     }
     for (std::size_t i = 0; i < wanted; ++i)
       depths.push_back(depth_of(static_cast<double>(values[i]), steps_per_metre));

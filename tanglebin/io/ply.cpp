@@ -252,9 +252,9 @@ void arrange(PointCloud& cloud, const Header& header) {
 // ---- writing
 
 std::string header_of(const PointCloud& cloud) {
-  const std::string grid =
-      cloud.height > 1 ? fmt::format("obj_info num_cols {}\nobj_info num_rows {}\n", cloud.width, cloud.height)
-                       : "";
+  const std::string grid = cloud.height > 1 ? fmt::format("obj_info num_cols {}\nobj_info num_rows {}\n",
+                                                          cloud.width, cloud.height)
+                                            : "";
   std::string header = fmt::format(
       "ply\n"
       "format binary_little_endian 1.0\n"

@@ -29,9 +29,9 @@ std::vector<std::int32_t> number_colors(const std::vector<Color>& colors, ColorL
                                         const std::string& file) {
   const std::set<Color> distinct(colors.begin(), colors.end());
   if (distinct.size() > most_colors)
-    throw InputError({file, 0, ""}, fmt::format("no labels, but {} colours", distinct.size()),
-                     fmt::format("a label for each point, or at most {} colours, one for each tube",
-                                 most_colors));
+    throw InputError(
+        {file, 0, ""}, fmt::format("no labels, but {} colours", distinct.size()),
+        fmt::format("a label for each point, or at most {} colours, one for each tube", most_colors));
   std::int32_t next_label = 1;
   for (const Color& color : distinct) {
     if (label_of.try_emplace(color, next_label).second) ++next_label;
