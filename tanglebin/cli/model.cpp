@@ -16,7 +16,6 @@
 #include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
-#include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/pcd.hpp"
@@ -76,31 +75,9 @@ KnownScene known_scene(const ModelArguments& arguments, const PointCloud& cloud)
   return known;
 }
 
-// The cloud's points in their order, with the labels found. PLY cannot store points without a position, which
-// organized clouds have.
-PointCloud labelled_cloud(const PointCloud& cloud, const Model& model, bool keep_missing_points) {
-  const std::vector<Color> colors = label_colors(static_cast<int>(model.tubes.size()));
-  PointCloud labelled;
-  labelled.viewpoint = cloud.viewpoint;
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (!keep_missing_points && !cloud.points[i].allFinite()) continue;
-    const std::int32_t label = model.labels[i];
-    labelled.points.push_back(cloud.points[i]);
-    labelled.labels.push_back(label);
-    labelled.colors.push_back(label == null_label ? null_color : colors[static_cast<std::size_t>(label)]);
-  }
-  labelled.width = keep_missing_points ? cloud.width : labelled.points.size();
-  labelled.height = keep_missing_points ? cloud.height : 1;
-  return labelled;
-}
-
 std::string cloud_bytes(const PointCloud& cloud, const Model& model, const std::string& file) {
   std::ostringstream out;
-  if (is_pcd(file)) {
-    write_pcd(out, labelled_cloud(cloud, model, true));
-  } else {
-    write_ply(out, labelled_cloud(cloud, model, false));
-  }
+  (is_pcd(file) ? write_pcd : write_ply)(out, labelled(cloud, model.labels));
   return std::move(out).str();
 }
 
@@ -226,7 +203,8 @@ void add_model(CLI::App& app) {
   command->add_flag("--json", arguments->json, "Print the steps as JSON");
   command->footer(
       "Example:\n  tanglebin model dataset/A10/plys/1.ply --out labelled.ply --modelled-tubes tubes.txt\n"
-      "Ignores the cloud's own labels and colours. Methods: docs/algorithm.md.");
+      "Ignores the cloud's own labels and colours, and keeps a camera's colours. Methods: "
+      "docs/algorithm.md.");
   command->callback([arguments] { model_cloud(*arguments); });
 }
 
