@@ -58,21 +58,21 @@ std::string header_of(const std::string& descr, const std::string& shape = "(2, 
 
 const std::vector<float> six_depths{1.5F, 0.25F, 0, -1, nothing, std::numeric_limits<float>::infinity()};
 
-TEST(DepthNpy, OfFloatsHoldsMetres) {
+TEST(ReadDepthNpy, OfFloatsHoldsMetres) {
   const DepthImage image = depths_in(npy(header_of("<f4"), values(six_depths)));
   EXPECT_EQ(image.width, 3);
   EXPECT_EQ(image.height, 2);
   EXPECT_THAT(image.depths, ElementsAre(1.5F, 0.25F, IsNan(), IsNan(), IsNan(), IsNan()));
 }
 
-TEST(DepthNpy, OfDoublesHoldsMetresToo) {
+TEST(ReadDepthNpy, OfDoublesHoldsMetresToo) {
   const DepthImage image =
       depths_in(npy(header_of("<f8", "(1, 4)"), values<double>({1.25, 1e-60, 1e60, -0.0})));
   EXPECT_EQ(image.width, 4);
   EXPECT_THAT(image.depths, ElementsAre(1.25F, IsNan(), IsNan(), IsNan()));
 }
 
-TEST(DepthNpy, OfAnotherUnitIsScaled) {
+TEST(ReadDepthNpy, OfAnotherUnitIsScaled) {
   EXPECT_THAT(depths_in(npy(header_of("<f4", "(1, 2)"), values<float>({1234.5F, 0})), 1000).depths,
               ElementsAre(1.2345F, IsNan()));
   EXPECT_THAT(
@@ -80,7 +80,7 @@ TEST(DepthNpy, OfAnotherUnitIsScaled) {
       ElementsAre(1, IsNan(), 65.535F));
 }
 
-TEST(DepthNpy, OfEveryVersionIsRead) {
+TEST(ReadDepthNpy, OfEveryVersionIsRead) {
   const std::string header = header_of("<f4", "(1,1)");
   const std::string length = bytes_of(static_cast<std::uint32_t>(header.size()));
   for (const char* version : {"\x02", "\x03"}) {
@@ -91,12 +91,12 @@ TEST(DepthNpy, OfEveryVersionIsRead) {
             "depth: version: found 4.0, expected 1.0, 2.0 or 3.0");
 }
 
-TEST(DepthNpy, MayHaveItsHeaderInAnyOrderAndQuotes) {
+TEST(ReadDepthNpy, MayHaveItsHeaderInAnyOrderAndQuotes) {
   const std::string header = R"({"shape":(1,1),"fortran_order":False,"descr":"<f4"})";
   EXPECT_THAT(depths_in(npy(header, values<float>({2}))).depths, ElementsAre(2));
 }
 
-TEST(DepthNpy, SaysWhatIsWrongWithItsHeader) {
+TEST(ReadDepthNpy, SaysWhatIsWrongWithItsHeader) {
   const auto about = [](const std::string& header) { return complaint_about(npy(header, "")); };
   EXPECT_EQ(about("['descr']"), "depth: header: found '['descr']', expected {");
   EXPECT_EQ(about("{'descr' '<f4'}"), "depth: header: found ''<f4'}', expected :");
@@ -119,7 +119,7 @@ TEST(DepthNpy, SaysWhatIsWrongWithItsHeader) {
   EXPECT_EQ(about("{'descr': '<f4', 'fortran_order': False}"), "depth: header: no entry shape");
 }
 
-TEST(DepthNpy, SaysHowToConvertWhatItDoesNotRead) {
+TEST(ReadDepthNpy, SaysHowToConvertWhatItDoesNotRead) {
   EXPECT_EQ(complaint_about(npy(header_of(">f4"), "")),
             "depth: descr: found '>f4', expected '<f4', '<f8' or '<u2', little-endian; convert it: "
             "numpy.save(file, array.astype('<f4'))");
@@ -128,7 +128,7 @@ TEST(DepthNpy, SaysHowToConvertWhatItDoesNotRead) {
             "it: numpy.save(file, numpy.ascontiguousarray(array))");
 }
 
-TEST(DepthNpy, OfAnotherShapeIsNoImage) {
+TEST(ReadDepthNpy, OfAnotherShapeIsNoImage) {
   const auto about = [](const std::string& shape) {
     return complaint_about(npy(header_of("<f4", shape), ""));
   };
@@ -142,7 +142,7 @@ TEST(DepthNpy, OfAnotherShapeIsNoImage) {
             "depth: shape: found (4294967295, 4294967295), expected an image of 1 to 67108864 pixels");
 }
 
-TEST(DepthNpy, WithTooFewOrTooManyValuesIsRefused) {
+TEST(ReadDepthNpy, WithTooFewOrTooManyValuesIsRefused) {
   const std::string whole = npy(header_of("<f4"), values(six_depths));
   EXPECT_EQ(complaint_about(whole.substr(0, whole.size() - 1)),
             "depth: found 5 values before the end of the file, expected 6");
@@ -197,14 +197,14 @@ std::string any_png(const PngKind& kind) {
   return bytes;
 }
 
-TEST(DepthPng, HoldsStepsAndZeroForNothing) {
+TEST(ReadDepthPng, HoldsStepsAndZeroForNothing) {
   const DepthImage image = depths_in(png_of({1.5F, nothing, 0.0001F, 6.5535F, 2, nothing}), depth_scale);
   EXPECT_EQ(image.width, 3);
   EXPECT_EQ(image.height, 2);
   EXPECT_THAT(image.depths, ElementsAre(1.5F, IsNan(), 0.0001F, 6.5535F, 2, IsNan()));
 }
 
-TEST(DepthPng, ItsNumbersAreTakenAsTheyAre) {
+TEST(ReadDepthPng, ItsNumbersAreTakenAsTheyAre) {
   for (const bool is_srgb : {false, true}) {
     for (const int interlace : {PNG_INTERLACE_NONE, PNG_INTERLACE_ADAM7}) {
       const DepthImage image = depths_in(any_png({.interlace = interlace, .is_srgb = is_srgb}), 1);
@@ -213,7 +213,7 @@ TEST(DepthPng, ItsNumbersAreTakenAsTheyAre) {
   }
 }
 
-TEST(DepthPng, OfAnotherKindIsNoDepthImage) {
+TEST(ReadDepthPng, OfAnotherKindIsNoDepthImage) {
   EXPECT_EQ(complaint_about(any_png({.bit_depth = 8}), 1), "depth: found 8-bit grey, expected 16-bit grey");
   EXPECT_EQ(complaint_about(any_png({.color_type = PNG_COLOR_TYPE_GRAY_ALPHA}), 1),
             "depth: found 16-bit grey with transparency, expected 16-bit grey");
@@ -221,7 +221,7 @@ TEST(DepthPng, OfAnotherKindIsNoDepthImage) {
             "depth: found 8-bit colour, expected 16-bit grey");
 }
 
-TEST(DepthPng, CutOrDamagedAnywhereIsRefused) {
+TEST(ReadDepthPng, CutOrDamagedAnywhereIsRefused) {
   const std::string whole = png_of({1, 2, 3, 4, 5, 6});
   for (std::size_t size = 0; size < whole.size(); ++size)
     EXPECT_NE(complaint_about(whole.substr(0, size), 1), "none") << size << " bytes";
@@ -242,7 +242,7 @@ std::uint32_t checksum(const std::string& bytes) {
   return ~sum;
 }
 
-TEST(DepthPng, OfFewBytesCannotHoldManyPixels) {
+TEST(ReadDepthPng, OfFewBytesCannotHoldManyPixels) {
   std::string claim = any_png({});
   // The header's width and height, and the checksum that goes with them.
   claim.replace(16, 8, std::string("\0\0\x20\0\0\0\x20\0", 8));
