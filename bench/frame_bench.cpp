@@ -4,6 +4,8 @@
 // most memory that the process had, peak_less_MB without what it had before.
 
 #include <benchmark/benchmark.h>
+#include <fmt/core.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstring>

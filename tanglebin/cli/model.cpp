@@ -77,7 +77,11 @@ KnownScene known_scene(const ModelArguments& arguments, const PointCloud& cloud)
 
 std::string cloud_bytes(const PointCloud& cloud, const Model& model, const std::string& file) {
   std::ostringstream out;
-  (is_pcd(file) ? write_pcd : write_ply)(out, labelled(cloud, model.labels));
+  if (is_pcd(file)) {
+    write_pcd(out, labelled(cloud, model.labels));
+  } else {
+    write_ply(out, labelled(cloud, model.labels), "unit and frame of the input");
+  }
   return std::move(out).str();
 }
 

@@ -243,7 +243,7 @@ void expect_end(CloudInput& input, Encoding encoding) {
 
 // Range grids say how large they are too, but have vertices for the measured places only.
 void arrange(PointCloud& cloud, const Header& header) {
-  if (!header.columns || !header.rows) return;
+  if (!header.columns || !header.rows || cloud.points.empty()) return;
   if (std::size_t{*header.columns} * *header.rows != cloud.points.size()) return;
   cloud.width = *header.columns;
   cloud.height = *header.rows;
@@ -251,19 +251,19 @@ void arrange(PointCloud& cloud, const Header& header) {
 
 // ---- writing
 
-std::string header_of(const PointCloud& cloud) {
+std::string header_of(const PointCloud& cloud, std::string_view coordinates) {
   const std::string grid = cloud.height > 1 ? fmt::format("obj_info num_cols {}\nobj_info num_rows {}\n",
                                                           cloud.width, cloud.height)
                                             : "";
   std::string header = fmt::format(
       "ply\n"
       "format binary_little_endian 1.0\n"
-      "comment Tanglebin: metres, world frame; label 0 bin, 1..n tubes, -1 null\n"
+      "comment Tanglebin: {}; label 0 bin, 1..n tubes, -1 null\n"
       "{}element vertex {}\n"
       "property float x\n"
       "property float y\n"
       "property float z\n",
-      grid, cloud.points.size());
+      coordinates, grid, cloud.points.size());
   if (!cloud.normals.empty()) header += "property float nx\nproperty float ny\nproperty float nz\n";
   if (!cloud.colors.empty()) header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   if (!cloud.labels.empty()) header += "property int label\n";
@@ -314,9 +314,9 @@ PointCloud read_ply(const std::filesystem::path& file) {
   return read_ply(stream, file.string());
 }
 
-void write_ply(std::ostream& out, const PointCloud& cloud) {
+void write_ply(std::ostream& out, const PointCloud& cloud, std::string_view coordinates) {
   check_cloud(cloud);
-  std::string ply = header_of(cloud);
+  std::string ply = header_of(cloud, coordinates);
   const std::size_t header_size = ply.size();
   const std::size_t point_size = sizeof(Eigen::Vector3f) + size_of_one(cloud.normals) +
                                  size_of_one(cloud.colors) + size_of_one(cloud.labels) +

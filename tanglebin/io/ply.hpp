@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <string>
+#include <string_view>
 
 #include "tanglebin/cloud/cloud.hpp"
 
@@ -21,7 +22,9 @@ PointCloud read_ply(const std::filesystem::path& file);
 
 /// Writes binary little-endian PLY: x y z float (m), then, if the cloud has them, nx ny nz float, red green
 /// blue uchar, label int, intensity float and mixed uchar (docs/formats.md); of an organized cloud, its size
-/// as obj_info. Throws std::invalid_argument as check_cloud(). The caller checks the stream.
-void write_ply(std::ostream& out, const PointCloud& cloud);
+/// as obj_info. A comment says what `coordinates` they are. Throws std::invalid_argument as check_cloud().
+/// The caller checks the stream.
+void write_ply(std::ostream& out, const PointCloud& cloud,
+               std::string_view coordinates = "metres, world frame");
 
 }  // namespace tanglebin
