@@ -37,7 +37,7 @@ constexpr int tubes = 20;
 
 Recipe recipe_of_frame() {
   Recipe recipe = paper_set("A", 30);
-  recipe.camera = downward_camera(1944, 1200, 2730, {0, 0, 1.5});
+  recipe.camera = downward_camera(1944, 1200, 2730, {0, 0, 1.7});
   recipe.sensor = sensor_preset("zivid-one-plus-l");
   return recipe;
 }
