@@ -17,7 +17,6 @@
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/scene_options.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
-#include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/pcd.hpp"
@@ -45,30 +44,12 @@ struct ModelArguments {
   bool json = false;
 };
 
-// The cloud's points in their order, with the labels found. PLY cannot store points without a position, which
-// organized clouds have.
-PointCloud labelled_cloud(const PointCloud& cloud, const Model& model, bool keep_missing_points) {
-  const std::vector<Color> colors = label_colors(static_cast<int>(model.tubes.size()));
-  PointCloud labelled;
-  labelled.viewpoint = cloud.viewpoint;
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (!keep_missing_points && !cloud.points[i].allFinite()) continue;
-    const std::int32_t label = model.labels[i];
-    labelled.points.push_back(cloud.points[i]);
-    labelled.labels.push_back(label);
-    labelled.colors.push_back(label == null_label ? null_color : colors[static_cast<std::size_t>(label)]);
-  }
-  labelled.width = keep_missing_points ? cloud.width : labelled.points.size();
-  labelled.height = keep_missing_points ? cloud.height : 1;
-  return labelled;
-}
-
 std::string cloud_bytes(const PointCloud& cloud, const Model& model, const std::string& file) {
   std::ostringstream out;
   if (is_pcd(file)) {
-    write_pcd(out, labelled_cloud(cloud, model, true));
+    write_pcd(out, labelled(cloud, model.labels));
   } else {
-    write_ply(out, labelled_cloud(cloud, model, false));
+    write_ply(out, labelled(cloud, model.labels), "unit and frame of the input");
   }
   return std::move(out).str();
 }
@@ -185,7 +166,7 @@ void add_model(CLI::App& app) {
       "tubes.txt\n"
       "  tanglebin model dataset/A10/plys/1.ply --scene dataset --out labelled.ply\n"
       "What is not given is estimated from the cloud, or the error says how to give it. Ignores the cloud's "
-      "own labels and colours. Methods: docs/algorithm.md.");
+      "own labels and colours, and keeps a camera's colours. Methods: docs/algorithm.md.");
   command->callback([arguments] { model_cloud(*arguments); });
 }
 

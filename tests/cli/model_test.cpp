@@ -105,20 +105,43 @@ TEST_F(ModelCommand, PrintsNothingBesideTubesOnStandardOutput) {
   EXPECT_EQ(read_configuration(in, "output").size(), 2U);
 }
 
-TEST_F(ModelCommand, KeepsAnOrganizedCloudOrganizedInPcdAndDropsItsHolesInPly) {
+TEST_F(ModelCommand, KeepsAnOrganizedCloudWithItsHoles) {
   const KnownScene scene = test::paper_scene();
   const PointCloud organized =
       organized_cloud_from_scan(scan(tubes_, scene.support.bin, scene.camera), CloudOf::tubes_and_bin, 2);
-  std::ostringstream pcd;
-  write_pcd(pcd, organized);
-  write("scan.pcd", pcd.str());
-  ASSERT_EQ(model("scan.pcd", "").status, 0);
-  EXPECT_EQ(read_cloud(directory_ / "labelled.ply").points, scan_.points);
-  const std::string out = path("labelled.pcd");
-  ASSERT_EQ(run_program("model " + path("scan.pcd") + paper + " --out " + out).status, 0);
-  const PointCloud labelled = read_cloud(std::filesystem::path(out));
-  EXPECT_EQ(labelled.width, organized.width);
-  EXPECT_EQ(labelled.height, organized.height);
+  write("scan.pcd", [&] {
+    std::ostringstream pcd;
+    write_pcd(pcd, organized);
+    return pcd.str();
+  }());
+  for (const std::string out : {"labelled.ply", "labelled.pcd"}) {
+    ASSERT_EQ(run_program("model " + path("scan.pcd") + paper + " --out " + path(out)).status, 0);
+    const PointCloud labelled = read_cloud(directory_ / out);
+    EXPECT_EQ(labelled.width, organized.width);
+    EXPECT_EQ(labelled.height, organized.height);
+    for (std::size_t i = 0; i < organized.points.size(); ++i) {
+      const bool is_there = organized.points[i].allFinite();
+      ASSERT_EQ(labelled.points[i].allFinite(), is_there) << i;
+      if (!is_there) ASSERT_EQ(labelled.labels[i], null_label) << i;
+    }
+  }
+}
+
+TEST_F(ModelCommand, KeepsWhatTheScannerMeasuredAndItsColours) {
+  PointCloud measured = scan_;
+  measured.labels.clear();
+  for (std::size_t i = 0; i < measured.points.size(); ++i) {
+    measured.colors[i] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i / 256), 99};
+    measured.intensities.push_back(static_cast<float>(i));
+    measured.normals.emplace_back(0, 0, 1);
+  }
+  write("measured.ply", ply_of(measured));
+  ASSERT_EQ(model("measured.ply", "").status, 0);
+  const PointCloud labelled = read_cloud(directory_ / "labelled.ply");
+  EXPECT_EQ(labelled.colors, measured.colors);
+  EXPECT_EQ(labelled.intensities, measured.intensities);
+  EXPECT_EQ(labelled.normals, measured.normals);
+  EXPECT_GT(score(scan_.labels, labelled.labels).micro_recall, 0.98);
 }
 
 TEST_F(ModelCommand, DrawsWhatEachStepLeft) {

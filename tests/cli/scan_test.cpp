@@ -77,6 +77,18 @@ TEST_F(ScanCommand, WritesAnOrganizedCloudImagesAndTheirCamera) {
   EXPECT_EQ(camera["intrinsic_matrix"][0], 2730.0);
 }
 
+TEST_F(ScanCommand, LeavesNothingBehindWhereAnOutputCannotBeMade) {
+  std::string text = one_tube;
+  text.replace(2, 1, "70000");  // the tube's id, too large for a label image
+  write_bytes(configuration_, text);
+  const auto result =
+      run_program("scan " + configuration_.string() + " --out " + (directory_ / "cloud.ply").string() +
+                  " --labels " + (directory_ / "labels.png").string());
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("label 70000"));
+  EXPECT_EQ(files_below(directory_.path()).size(), 1U) << "only the configuration";
+}
+
 TEST_F(ScanCommand, SeesLikeARealScannerWhereAsked) {
   const std::string command = "scan " + configuration_.string() + " --with-bin --out ";
   const std::string ideal = (directory_ / "ideal.ply").string();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tanglebin/geometry/labels.hpp"
+#include "tanglebin/model/scene/box_grid.hpp"
 
 namespace tanglebin {
 namespace {
@@ -29,16 +30,24 @@ std::vector<Claim> claims_of(const std::vector<Tube>& tubes, double distance_max
   return claims;
 }
 
+BoxGrid grid_of(const std::vector<Claim>& claims) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Claim& claim : claims) boxes.push_back(claim.box);
+  return BoxGrid(boxes);
+}
+
 }  // namespace
 
 std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::vector<std::size_t>& points,
                                            const std::vector<Tube>& tubes, const LabelSettings& settings) {
   const std::vector<Claim> claims = claims_of(tubes, settings.distance_max);
+  const BoxGrid grid = grid_of(claims);
   std::vector<std::int32_t> labels(points.size(), null_label);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d point = cloud.points[points[i]].cast<double>();
     double nearest = settings.distance_max;
-    for (const auto& [label, capsule, box] : claims) {
+    for (const std::uint32_t claim : grid.around(point)) {
+      const auto& [label, capsule, box] = claims[claim];
       if (!box.contains(point)) continue;
       const double distance = std::abs(axis_distance(capsule, point) - capsule.radius);
       if (distance >= nearest) continue;
