@@ -21,13 +21,13 @@
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/pcd.hpp"
 #include "tanglebin/io/ply.hpp"
-#include "tanglebin/io/read_cloud.hpp"
 #include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/model/axis/axis_method.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
 #include "tanglebin/model/scene/support_frame.hpp"
 #include "tanglebin/report/pictures_of_steps.hpp"
+#include "tanglebin/scene/read_measurement.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -120,14 +120,16 @@ std::vector<Output> outputs(const ModelArguments& arguments) {
 void model_cloud(const ModelArguments& arguments) {
   expect_outputs(outputs(arguments));
   const ModelSettings settings = model_settings(arguments);
-  const Scene scene = scene_of(arguments.scene, arguments.cloud);
-  const PointCloud cloud = read_input(arguments.cloud, [](auto&&... from) { return read_cloud(from...); });
-  const ResolvedScene resolved = with_file(arguments.cloud, [&] { return resolve(scene, cloud); });
+  const Scene told = scene_of(arguments.scene, arguments.cloud);
+  const Measurement measured =
+      read_input(arguments.cloud, [&](auto&&... from) { return read_measurement(from..., told); });
+  const ResolvedScene resolved =
+      with_file(arguments.cloud, [&] { return resolve(measured.scene, measured.cloud); });
   print_notes(resolved.notes);
   validate(resolved.known, settings);
   const Model model =
       with_file(arguments.cloud, [&] { return model_tubes(resolved.cloud, resolved.known, settings); });
-  write_output(arguments.out, cloud_bytes(cloud, model, arguments.out));
+  write_output(arguments.out, cloud_bytes(measured.cloud, model, arguments.out));
   if (arguments.tubes) {
     std::ostringstream tubes;
     write_configuration(tubes, model.tubes);
@@ -142,7 +144,10 @@ void model_cloud(const ModelArguments& arguments) {
 void add_model(CLI::App& app) {
   const auto arguments = std::make_shared<ModelArguments>();
   CLI::App* command = app.add_subcommand("model", "Model the tubes in a cloud and label its points");
-  command->add_option("cloud", arguments->cloud, "Cloud (PLY or PCD); - for standard input")->required();
+  command
+      ->add_option("cloud", arguments->cloud,
+                   "Cloud (PLY or PCD), or depth image (PNG or NPY) with its camera; - for standard input")
+      ->required();
   command
       ->add_option("--out", arguments->out,
                    "The same cloud with labels: .ply or .pcd; - for PLY on standard output")

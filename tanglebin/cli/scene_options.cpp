@@ -14,6 +14,7 @@
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/experiment/run.hpp"
+#include "tanglebin/io/images.hpp"
 #include "tanglebin/io/read_file.hpp"
 #include "tanglebin/io/toml_table.hpp"
 #include "tanglebin/report/text.hpp"
@@ -57,6 +58,12 @@ CaseId case_named(const Dataset& dataset, const std::string& name) {
   return *found;
 }
 
+Scene scene_of_simulation(const KnownScene& known) {
+  Scene scene = scene_of(known);
+  scene.camera.depth_scale = depth_scale;
+  return scene;
+}
+
 Scene scene_of_case(const fs::path& directory, const CaseName& named) {
   const Dataset dataset = read_dataset(directory);
   const CaseId id = case_named(dataset, named.name);
@@ -65,7 +72,7 @@ Scene scene_of_case(const fs::path& directory, const CaseName& named) {
   const std::vector<Scanner> all = scanners(recipe);
   const auto scanner = std::ranges::find(all, named.scanner, &Scanner::name);
   if (scanner != all.end()) known.camera = scanner->camera;
-  return scene_of(known);
+  return scene_of_simulation(known);
 }
 
 Scene scene_of_dataset(const fs::path& directory, const std::string& input) {
@@ -84,7 +91,7 @@ Scene scene_of_recipe(const fs::path& file) {
   if (!recipe.random.empty())
     throw InputError({file.string(), 0, recipe.random.front().path}, "a number that is drawn for each case",
                      remedy);
-  const Scene scene = scene_of(known_scene(recipe, {recipe.sets.front().name}));
+  const Scene scene = scene_of_simulation(known_scene(recipe, {recipe.sets.front().name}));
   for (const SetRecipe& set : recipe.sets) {
     if (scene_of(known_scene(recipe, {set.name})).tubes != scene.tubes)
       throw InputError({file.string(), 0, "set"}, "sets of different tubes", remedy);

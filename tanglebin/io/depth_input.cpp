@@ -85,7 +85,8 @@ std::vector<float> read_values(CloudInput& input, std::size_t size, double steps
   return depths;
 }
 
-DepthImage read_npy(std::istream& in, const std::string& name, std::optional<double> steps_per_metre) {
+DepthImage read_npy(std::istream& in, const std::string& name, std::optional<double> steps_per_metre,
+                    double floats_per_metre) {
   CloudInput input(in, name);
   const auto [type, width, height] = read_npy_header(input);
   const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -94,9 +95,9 @@ DepthImage read_npy(std::istream& in, const std::string& name, std::optional<dou
       return {width, height,
               read_values<std::uint16_t>(input, size, steps_of_integers(steps_per_metre, name))};
     case NpyType::float32:
-      return {width, height, read_values<float>(input, size, steps_per_metre.value_or(1))};
+      return {width, height, read_values<float>(input, size, floats_per_metre)};
     case NpyType::float64:
-      return {width, height, read_values<double>(input, size, steps_per_metre.value_or(1))};
+      return {width, height, read_values<double>(input, size, floats_per_metre)};
   }
   return {};
 }
@@ -108,30 +109,33 @@ bool is_depth_image(std::istream& in) {
   return first == first_of_png || first == first_of_npy;
 }
 
-DepthImage read_depths(std::istream& in, const std::string& name, std::optional<double> steps_per_metre) {
+DepthImage read_depths(std::istream& in, const std::string& name, std::optional<double> steps_per_metre,
+                       double floats_per_metre) {
   check_steps(steps_per_metre, name);
+  check_steps(floats_per_metre, name);
   const std::optional<char> first = first_byte(in);
   if (first == first_of_png) return read_png(in, name, steps_per_metre);
-  if (first == first_of_npy) return read_npy(in, name, steps_per_metre);
+  if (first == first_of_npy) return read_npy(in, name, steps_per_metre, floats_per_metre);
   throw InputError({name, 0, ""}, first ? excerpt({&*first, 1}) + " at the start" : "an empty file",
                    "a depth image: a PNG or NPY file");
 }
 
-DepthImage read_depths(const std::filesystem::path& file, std::optional<double> steps_per_metre) {
+DepthImage read_depths(const std::filesystem::path& file, std::optional<double> steps_per_metre,
+                       double floats_per_metre) {
   std::ifstream stream = cloud_format::open_cloud(file);
-  return read_depths(stream, file.string(), steps_per_metre);
+  return read_depths(stream, file.string(), steps_per_metre, floats_per_metre);
 }
 
 PointCloud read_depth_image(std::istream& in, const std::string& name, const Intrinsics& intrinsics,
-                            std::optional<double> steps_per_metre) {
-  const DepthImage depths = read_depths(in, name, steps_per_metre);
+                            std::optional<double> steps_per_metre, double floats_per_metre) {
+  const DepthImage depths = read_depths(in, name, steps_per_metre, floats_per_metre);
   return with_file(name, [&] { return cloud_from_depths(depths, intrinsics); });
 }
 
 PointCloud read_depth_image(const std::filesystem::path& file, const Intrinsics& intrinsics,
-                            std::optional<double> steps_per_metre) {
+                            std::optional<double> steps_per_metre, double floats_per_metre) {
   std::ifstream stream = cloud_format::open_cloud(file);
-  return read_depth_image(stream, file.string(), intrinsics, steps_per_metre);
+  return read_depth_image(stream, file.string(), intrinsics, steps_per_metre, floats_per_metre);
 }
 
 }  // namespace tanglebin

@@ -133,9 +133,10 @@ private:
     constexpr double half = 0.5;
     if (extent(cloud_) && in_camera.share < half)
       throw InputError(
-          {"", 0, "camera"}, describe(in_camera),
-          "a cloud in the camera's frame, or the camera's pose: camera_to_world, or position and "
-          "look_at, in the scene file's [camera]");
+          {"", 0, "camera"},
+          fmt::format("in the camera's frame, {}; if the cloud is in another, give the camera's pose: "
+                      "camera_to_world, or position and look_at, in the scene file's [camera]",
+                      describe(in_camera)));
     notes.emplace_back("the camera's pose is not known: the world frame is the camera's");
     return in_camera;
   }
@@ -145,32 +146,33 @@ private:
     constexpr double half = 0.5;
     for (const auto& [likely, other] : {std::pair{in_camera, in_world}, {in_world, in_camera}}) {
       if (likely.share < most || other.share > half) continue;
-      notes.push_back(fmt::format("the points are in the {} frame: there, {}",
+      notes.push_back(fmt::format("the cloud is taken to be in the {} frame: there, {}",
                                   likely.frame == CloudFrame::camera ? "camera's" : "world",
                                   describe(likely)));
       return likely;
     }
     throw InputError(
         {"", 0, "frame"},
-        fmt::format("{} if they are in the camera's frame, and {} if they are in the world frame",
-                    describe(in_camera), describe(in_world)),
-        "points in the image in one of them; say in which they are: --frame camera or --frame "
-        "world, or frame in the scene file's [camera]");
+        fmt::format("in the camera's frame, {}, and in the world frame, {}; say in which the cloud is: "
+                    "--frame camera or --frame world, or frame in the scene file's [camera]",
+                    describe(in_camera), describe(in_world)));
   }
 
   std::string describe(const Candidate& candidate) const {
     if (camera_.intrinsics)
-      return fmt::format("{} of the points in the camera's image", percent(candidate.share));
-    if (!candidate.fitted) return "too few points in front of the camera";
-    return fmt::format("points {:.3g} pixels from a pinhole camera's", candidate.fitted->residual);
+      return fmt::format("{} of the points are in the camera's image", percent(candidate.share));
+    if (!candidate.fitted) return "too few points are in front of the camera";
+    return fmt::format("the points are {:.2g} pixels from a pinhole camera's", candidate.fitted->residual);
   }
 
   Intrinsics intrinsics_in(const Candidate& chosen, Notes& notes) const {
     if (const std::optional<Intrinsics> known = known_intrinsics()) return *known;
     if (!chosen.fitted || !fits(*chosen.fitted))
-      throw InputError({"", 0, "camera"}, fmt::format("an organized cloud with {}", describe(chosen)),
-                       "the points of an image's pixels, in the camera's frame: x right, y down, z along the "
-                       "view; or --camera FILE");
+      throw InputError(
+          {"", 0, "camera"},
+          fmt::format("the organized cloud does not show its camera: if its rows and columns are an "
+                      "image's, {}; give --camera FILE",
+                      describe(chosen)));
     const auto& [intrinsics, residual] = *chosen.fitted;
     notes.push_back(
         fmt::format("the intrinsics are fitted to the organized cloud, to {:.2g} pixels: fx {:.6g}, fy "

@@ -26,9 +26,10 @@ using testing::IsNan;
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
-DepthImage depths_in(const std::string& file, std::optional<double> steps_per_metre = std::nullopt) {
+DepthImage depths_in(const std::string& file, std::optional<double> steps_per_metre = std::nullopt,
+                     double floats_per_metre = 1) {
   std::istringstream stream(file);
-  return read_depths(stream, "depth", steps_per_metre);
+  return read_depths(stream, "depth", steps_per_metre, floats_per_metre);
 }
 
 std::string complaint_about(const std::string& file, std::optional<double> steps_per_metre = std::nullopt) {
@@ -73,7 +74,7 @@ TEST(ReadDepthNpy, OfDoublesHoldsMetresToo) {
 }
 
 TEST(ReadDepthNpy, OfAnotherUnitIsScaled) {
-  EXPECT_THAT(depths_in(npy(header_of("<f4", "(1, 2)"), values<float>({1234.5F, 0})), 1000).depths,
+  EXPECT_THAT(depths_in(npy(header_of("<f4", "(1, 2)"), values<float>({1234.5F, 0})), 10000, 1000).depths,
               ElementsAre(1.2345F, IsNan()));
   EXPECT_THAT(
       depths_in(npy(header_of("<u2", "(1, 3)"), values<std::uint16_t>({1000, 0, 65535})), 1000).depths,
