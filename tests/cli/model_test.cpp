@@ -122,7 +122,9 @@ TEST_F(ModelCommand, KeepsAnOrganizedCloudWithItsHoles) {
     for (std::size_t i = 0; i < organized.points.size(); ++i) {
       const bool is_there = organized.points[i].allFinite();
       ASSERT_EQ(labelled.points[i].allFinite(), is_there) << i;
-      if (!is_there) ASSERT_EQ(labelled.labels[i], null_label) << i;
+      if (!is_there) {
+        ASSERT_EQ(labelled.labels[i], null_label) << i;
+      }
     }
   }
 }
@@ -275,6 +277,32 @@ TEST_F(ModelCommand, TakesACameraFileAndACloudInMillimetresInTheCamerasFrame) {
   const PointCloud labelled = read_cloud(directory_ / "labelled.ply");
   EXPECT_EQ(labelled.points, seen.points);  // as they came
   EXPECT_GT(score(scan_.labels, labelled.labels).micro_recall, 0.99);
+}
+
+TEST_F(ModelCommand, TakesADepthImageWithItsCamera) {
+  const KnownScene scene = test::paper_scene();
+  const Scan seen = scan(tubes_, scene.support.bin, scene.camera);
+  write("depth.png", depth_png(depth_image(seen)));
+  write("camera.json", camera_json(scene.camera));
+  write("scene.toml",
+        "[support]\nshape = \"bin\"\npreset = \"paper\"\n[[tube]]\nradius = 0.0125\nlength = 0.5\n");
+  const std::string options = "--scene " + path("scene.toml") + " --camera " + path("camera.json");
+  const ProgramResult run = model_without_scene("depth.png", options);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const PointCloud labelled = read_cloud(directory_ / "labelled.ply");
+  EXPECT_EQ(labelled.points.size(), 1920U * 1200U);
+  const PointCloud truth = organized_cloud_from_scan(seen, CloudOf::tubes_and_bin, 2);
+  EXPECT_GT(score(truth.labels, labelled.labels).micro_recall, 0.98);
+
+  EXPECT_THAT(model_without_scene("depth.png", "--scene " + path("scene.toml")).err,
+              HasSubstr("depth.png: camera: found a depth image, and nothing of the camera that took it"));
+  write("ros.yaml", "width: 1920\nheight: 1200\nk: [1372, 0, 959.5, 0, 1372, 599.5, 0, 0, 1]\n");
+  EXPECT_THAT(
+      model_without_scene("depth.png", "--camera " + path("ros.yaml")).err,
+      HasSubstr("depth_scale: found nothing that says what the image's numbers are, expected --unit mm"));
+  write("small.yaml", "width: 960\nheight: 600\nk: [686, 0, 479.5, 0, 686, 299.5, 0, 0, 1]\n");
+  EXPECT_THAT(model_without_scene("depth.png", "--unit mm --camera " + path("small.yaml")).err,
+              HasSubstr("depth.png: "));
 }
 
 TEST_F(ModelCommand, TakesTheSceneOfADatasetsCase) {

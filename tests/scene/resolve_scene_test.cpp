@@ -137,7 +137,7 @@ TEST_F(ToldScene, AnOrganizedCloudShowsItsCamera) {
   EXPECT_NEAR(found.cy, expected.cy, 0.01);
   EXPECT_TRUE(resolved.known.camera.pose.isApprox(camera().pose));
   EXPECT_THAT(resolved.notes,
-              AllOf(Contains(HasSubstr("VIEWPOINT")), Contains(HasSubstr("in the world frame")),
+              AllOf(Contains(HasSubstr("VIEWPOINT")), Contains(HasSubstr("taken to be in the world frame")),
                     Contains(HasSubstr("fitted to the organized cloud"))));
 }
 
@@ -188,12 +188,14 @@ TEST_F(ToldScene, WhatTheCloudDoesNotShowMustBeSaid) {
       {complaint([&] { resolve(in_world, no_viewpoint); }),
        "camera: found points in the world frame, and nothing that says where the camera is"},
       {complaint([&] { resolve(with_camera({.intrinsics = intrinsics_of(camera())}), no_viewpoint); }),
-       "camera: found 1 % of the points in the camera's image, expected a cloud in the camera's frame, or "
-       "the"},
+       "camera: in the camera's frame, 1 % of the points are in the camera's image; if the cloud is in "
+       "another"},
       {complaint([&] { resolve(told, small_numbers); }), "unit: found points within 0.0005"},
       {complaint([&] { resolve(told, aside); }),
-       "frame: found 0 % of the points in the camera's image if they are in the camera's frame, and 0 %"},
-      {complaint([&] { resolve(bin_and_tubes(), shuffled); }), "pixels from a pinhole camera's, expected"},
+       "frame: in the camera's frame, 0 % of the points are in the camera's image, and in the world frame, 0 "
+       "%"},
+      {complaint([&] { resolve(bin_and_tubes(), shuffled); }),
+       "pixels from a pinhole camera's; give --camera FILE"},
   };
   for (const auto& [refusal, message] : refusals) EXPECT_THAT(refusal, HasSubstr(message));
 }
