@@ -66,7 +66,9 @@ std::optional<FittedIntrinsics> fit_intrinsics(const PointCloud& cloud, const Ei
   Line across;
   Line down;
   std::size_t finite = 0;
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+  constexpr std::size_t most = 1U << 18U;
+  const std::size_t step = cloud.points.size() / most + 1;
+  for (std::size_t i = 0; i < cloud.points.size(); i += step) {
     if (!cloud.points[i].allFinite()) continue;
     ++finite;
     const Vector3d point = motion * cloud.points[i].cast<double>();

@@ -72,7 +72,8 @@ public:
     expect_image();
     const std::optional<Isometry3d> pose = known_pose(notes);
     const Candidate chosen = choose(pose, notes);
-    return {camera_with(intrinsics_in(chosen, notes), pose.value_or(Isometry3d::Identity())), chosen.frame};
+    const Isometry3d known = pose.value_or(Isometry3d::Identity());
+    return {camera_with(intrinsics_in(chosen, known, notes), known), chosen.frame};
   }
 
 private:
@@ -112,8 +113,13 @@ private:
     return std::nullopt;
   }
 
+  // From the frame of the points into the camera's.
+  static Isometry3d motion_from(CloudFrame frame, const Isometry3d& pose) {
+    return frame == CloudFrame::camera ? Isometry3d::Identity() : pose.inverse();
+  }
+
   Candidate candidate(CloudFrame frame, const Isometry3d& pose) const {
-    const Isometry3d motion = frame == CloudFrame::camera ? Isometry3d::Identity() : pose.inverse();
+    const Isometry3d motion = motion_from(frame, pose);
     if (const std::optional<Intrinsics> known = known_intrinsics())
       return {frame, {}, share_in_image(cloud_, Eigen::Affine3d(motion.matrix()), *known)};
     const std::optional<FittedIntrinsics> fitted = fit_intrinsics(cloud_, motion);
@@ -165,8 +171,28 @@ private:
     return fmt::format("the points are {:.2g} pixels from a pinhole camera's", candidate.fitted->residual);
   }
 
-  Intrinsics intrinsics_in(const Candidate& chosen, Notes& notes) const {
-    if (const std::optional<Intrinsics> known = known_intrinsics()) return *known;
+  // An organized cloud shows whether a camera file is another's. One that is a part of the image has its
+  // focal length, one that is reduced its field of view.
+  void expect_same_camera(const Intrinsics& known, const Isometry3d& motion) const {
+    if (!is_organized(cloud_)) return;
+    const std::optional<FittedIntrinsics> fitted = fit_intrinsics(cloud_, motion);
+    if (!fitted || !fits(*fitted)) return;
+    const Intrinsics& seen = fitted->intrinsics;
+    const auto is_near = [&](double focal_length) {
+      constexpr double tolerance = 0.05;
+      return std::abs(focal_length - known.fx) <= tolerance * known.fx;
+    };
+    if (is_near(seen.fx) || is_near(seen.fx * known.width / seen.width)) return;
+    throw InputError(
+        {"", 0, "camera"}, fmt::format("a focal length of {:.4g} pixels, fx", known.fx),
+        fmt::format("about {:.4g}, which the organized cloud shows; is the camera another's?", seen.fx));
+  }
+
+  Intrinsics intrinsics_in(const Candidate& chosen, const Isometry3d& pose, Notes& notes) const {
+    if (const std::optional<Intrinsics> known = known_intrinsics()) {
+      expect_same_camera(*known, motion_from(chosen.frame, pose));
+      return *known;
+    }
     if (!chosen.fitted || !fits(*chosen.fitted))
       throw InputError(
           {"", 0, "camera"},

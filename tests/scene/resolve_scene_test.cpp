@@ -150,6 +150,18 @@ TEST_F(ToldScene, AnOrganizedCloudHasTheSizeThatACameraFileLacks) {
               HasSubstr("camera: found a camera without the size of its image"));
 }
 
+TEST_F(ToldScene, AnOrganizedCloudShowsThatTheCameraIsAnothers) {
+  SceneCamera other = whole_camera();
+  other.intrinsics->fx *= 0.5;
+  other.intrinsics->fy *= 0.5;
+  EXPECT_THAT(complaint([&] { resolve(with_camera(other), organized()); }),
+              HasSubstr("which the organized cloud shows; is the camera another's?"));
+  SceneCamera twice_as_fine = whole_camera();  // the cloud shows every other pixel of every other row
+  twice_as_fine.intrinsics = {2 * camera().width, 2 * camera().height,   2 * camera().fx,
+                              2 * camera().fy,    2 * camera().cx + 0.5, 2 * camera().cy + 0.5};
+  EXPECT_NO_THROW(resolve(with_camera(twice_as_fine), organized()));
+}
+
 TEST_F(ToldScene, WhatIsNotKnownOfTheTubesIsEstimatedOrStaysOpen) {
   Scene scene = with_camera(whole_camera());
   scene.tubes.clear();
