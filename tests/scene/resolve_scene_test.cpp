@@ -191,8 +191,10 @@ TEST_F(ToldScene, WhatTheCloudDoesNotShowMustBeSaid) {
   no_viewpoint.viewpoint.reset();
   PointCloud small_numbers = moved(cloud(), Eigen::Affine3d(Eigen::Scaling(0.001)));
   PointCloud aside = moved(cloud(), Eigen::Affine3d(Eigen::Translation3d(0, 0, -50)));
-  PointCloud shuffled = in_camera_frame(organized());
-  std::ranges::reverse(shuffled.points);
+  PointCloud upside_down = in_camera_frame(organized());
+  std::ranges::reverse(upside_down.points);
+  PointCloud cut = in_camera_frame(organized());
+  std::rotate(cut.points.begin(), cut.points.begin() + 960 * 320 + 480, cut.points.end());
   const std::vector<std::pair<std::string, std::string>> refusals = {
       {complaint([&] { resolve(bin_and_tubes(), cloud()); }),
        "camera: found neither the camera's intrinsics nor an organized cloud, which shows them, expected "
