@@ -14,6 +14,7 @@
 #include "tanglebin/io/images.hpp"
 #include "tests/cloud/clouds.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/program.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
@@ -153,6 +154,33 @@ TEST(ReadDepthNpy, WithTooFewOrTooManyValuesIsRefused) {
             "depth: found 0 values before the end of the file, expected 67108864");
   for (std::size_t size = 0; size < whole.size(); ++size)
     EXPECT_NE(complaint_about(whole.substr(0, size)), "none") << size << " bytes";
+}
+
+TEST(ReadDepthNpy, ReadsWhatNumpySaves) {
+  const test::TemporaryDirectory directory;
+  const auto python = [&](const std::string& program) {
+    return test::run_shell("cd " + directory.path().string() + " && PATH=/usr/bin:/bin python3 -c '" +
+                           program + "'");
+  };
+  if (python("import numpy").status != 0) GTEST_SKIP() << "python3-numpy is missing";
+  const auto saved = python(R"(
+import numpy
+depths = numpy.array([[1.5, 0, 2], [numpy.nan, 0.25, numpy.inf]])
+numpy.save("double.npy", depths)
+numpy.save("float.npy", depths.astype("<f4"))
+numpy.save("integer.npy", numpy.array([[1500, 0, 2000], [0, 250, 0]], "<u2"))
+numpy.save("transposed.npy", depths.T)
+)");
+  ASSERT_EQ(saved.status, 0) << saved.err;
+  const std::vector<std::pair<std::string, double>> files{
+      {"double.npy", 1}, {"float.npy", 1}, {"integer.npy", 1000}};
+  for (const auto& [name, steps] : files) {
+    const DepthImage image = read_depths(directory / name, steps);
+    EXPECT_EQ(image.width, 3) << name;
+    EXPECT_EQ(image.height, 2) << name;
+    EXPECT_THAT(image.depths, ElementsAre(1.5F, IsNan(), 2, IsNan(), 0.25F, IsNan())) << name;
+  }
+  EXPECT_THAT(complaint([&] { read_depths(directory / "transposed.npy"); }), HasSubstr("Fortran order"));
 }
 
 // ---- PNG
