@@ -208,8 +208,10 @@ TEST_F(ToldScene, WhatTheCloudDoesNotShowMustBeSaid) {
       {complaint([&] { resolve(told, aside); }),
        "frame: in the camera's frame, 0 % of the points are in the camera's image, and in the world frame, 0 "
        "%"},
-      {complaint([&] { resolve(bin_and_tubes(), shuffled); }),
-       "pixels from a pinhole camera's; give --camera FILE"},
+      {complaint([&] { resolve(bin_and_tubes(), upside_down); }),
+       "the image is upside down or mirrored: x should"},
+      {complaint([&] { resolve(bin_and_tubes(), cut); }),
+       "pixels from a pinhole camera's; if the cloud is in another"},
   };
   for (const auto& [refusal, message] : refusals) EXPECT_THAT(refusal, HasSubstr(message));
 }
