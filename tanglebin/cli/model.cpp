@@ -62,7 +62,7 @@ KnownScene known_scene(const ModelArguments& arguments, const PointCloud& cloud)
   KnownScene known{.support = {.bin = bin_preset(arguments.bin)}, .camera = camera_preset(arguments.scanner)};
   const std::vector<double> radii =
       arguments.radius == "auto"
-          ? std::vector{with_file(arguments.cloud, [&] { return estimate_radius(cloud, known); })}
+          ? std::vector{with_file(arguments.cloud, [&] { return estimate_radius(cloud, known).radius; })}
           : parse_lengths(arguments.radius, "--radius");
   const std::vector<SegmentTree> segments = known_segments(arguments);
   if (segments.size() != 1 && segments.size() != radii.size()) {

@@ -92,8 +92,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   std::vector<std::int32_t> claimed(cloud.points.size(), null_label);
   for_each_kind([&](const AxisSteps& steps, const TubeKind& kind) {
     for (const std::vector<std::size_t>& fragments : steps.tubes) {
-      Tube tube =
-          fit_tube(steps.fragments, fragments, steps.links, steps.chosen, points, kind.radius, settings.fit);
+      Tube tube = fit_tube(steps.fragments, fragments, steps.links, steps.chosen, points, kind, settings.fit);
       tube.id = static_cast<int>(model.tubes.size()) + 1;
       claim_points(claimed, tube, fragments, steps, model.filtered);
       model.tubes.push_back(std::move(tube));
