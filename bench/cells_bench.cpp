@@ -138,11 +138,23 @@ PointCloud cloud_of(const Cell& cell, const Scene& scene, const Sensor& sensor) 
   return cloud;
 }
 
+// The modelled tubes of which most points are on no tube.
+double false_tubes(const PointCloud& cloud, const Model& model) {
+  std::vector<int> on_tubes(model.tubes.size() + 1);
+  for (std::size_t i = 0; i < cloud.labels.size(); ++i) {
+    if (model.labels[i] > 0)
+      on_tubes[static_cast<std::size_t>(model.labels[i])] += cloud.labels[i] > 0 ? 1 : -1;
+  }
+  return static_cast<double>(
+      std::count_if(on_tubes.begin() + 1, on_tubes.end(), [](int excess) { return excess <= 0; }));
+}
+
 void model_cell(benchmark::State& state, const Cell& cell, const Sensor& sensor, Told told, Method method) {
   double sum = 0;
   double worst = 1;
   double radius_error = 0;
   double tubes = 0;
+  double not_tubes = 0;
   double failed = 0;
   const std::vector<Scene>& scenes = heaps_of(cell);
   for ([[maybe_unused]] const auto iteration : state) {
@@ -162,6 +174,7 @@ void model_cell(benchmark::State& state, const Cell& cell, const Sensor& sensor,
         recall =
             score(picked(cloud.labels, model.filtered), picked(model.labels, model.filtered)).micro_recall;
         tubes += static_cast<double>(model.tubes.size());
+        not_tubes += false_tubes(cloud, model);
       } catch (const InputError& error) {
         state.SetLabel(error.what());
         ++failed;
@@ -175,6 +188,7 @@ void model_cell(benchmark::State& state, const Cell& cell, const Sensor& sensor,
   state.counters["mean"] = sum / count;
   state.counters["worst"] = worst;
   state.counters["tubes"] = tubes / count;
+  state.counters["false_tubes"] = not_tubes / count;
   if (failed > 0) state.counters["failed"] = failed;
   if (told == Told::no_radius) state.counters["radius_error"] = radius_error;
 }

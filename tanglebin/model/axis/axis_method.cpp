@@ -1,11 +1,14 @@
 #include "tanglebin/model/axis/axis_method.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/model/axis/choose_links.hpp"
 #include "tanglebin/model/axis/kinds.hpp"
+#include "tanglebin/model/axis/length.hpp"
+#include "tanglebin/model/axis/roundness.hpp"
 #include "tanglebin/model/scene/range_image.hpp"
 #include "tanglebin/model/scene/step_clock.hpp"
 
@@ -42,6 +45,13 @@ std::vector<Ball> space_of_other_kinds(const std::vector<AxisSteps>& kinds, cons
     }
   }
   return space;
+}
+
+// Not the rim of a bin, nor a pipe of quite another radius. What shows too little is taken for a tube.
+bool is_round(const std::optional<double>& roundness) {
+  constexpr double least = 0.6;
+  constexpr double most = 1.6;
+  return !roundness || (*roundness > least && *roundness < most);
 }
 
 std::size_t number_of_votes(const AxisSteps& steps) {
@@ -81,7 +91,8 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
                  "fragments");
 
   const RangeImage seen(points_seen(cloud, cropped, model.filtered, ratio, seed), known.camera);
-  for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
+  for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
+    const TubeKind kind = with_length(known_kind, steps.fragments, seen, known.support, settings.link);
     steps.links = find_links(steps.fragments, seen, kind, settings.link,
                              space_of_other_kinds(result.kinds, known, steps));
     steps.chosen = choose_links(steps.fragments, steps.links, kind, settings.link);
@@ -90,13 +101,16 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");
 
   std::vector<std::int32_t> claimed(cloud.points.size(), null_label);
-  for_each_kind([&](const AxisSteps& steps, const TubeKind& kind) {
-    for (const std::vector<std::size_t>& fragments : steps.tubes) {
+  for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
+    std::erase_if(steps.tubes, [&](const std::vector<std::size_t>& fragments) {
       Tube tube = fit_tube(steps.fragments, fragments, steps.links, steps.chosen, points, kind, settings.fit);
+      if (!is_round(roundness(tube, steps.fragments, fragments, points, steps.votes, known.camera)))
+        return true;
       tube.id = static_cast<int>(model.tubes.size()) + 1;
       claim_points(claimed, tube, fragments, steps, model.filtered);
       model.tubes.push_back(std::move(tube));
-    }
+      return false;
+    });
   });
   clock.end_step("fit", model.tubes.size(), "tubes");
 

@@ -15,9 +15,10 @@ struct CylinderFit {
 };
 
 /// Fits a cylinder by least squares to the points within `reach` (m) of a point of the grid: to their
-/// positions, since normals are smoothed by the sensor. Points on surfaces that fall away from the view do
-/// not count: there, real sensors blend a surface with what is behind it. None if these points are too few,
-/// or not on a cylinder that bulges towards the sensor with a radius of about the reach.
+/// positions, since sensors smooth normals, along their rays, since there is the noise. Points on surfaces
+/// that fall away from the view do not count: there, real sensors blend a surface with what is behind it.
+/// None if these points are too few, or not on a cylinder that bulges towards the sensor with a radius of
+/// about the reach.
 std::optional<CylinderFit> fit_cylinder(const PixelGrid& grid, std::size_t item, double reach);
 
 }  // namespace tanglebin

@@ -75,7 +75,7 @@ std::optional<Sighting> sighting(const PixelGrid& grid, std::size_t item, double
 // shows another one with each.
 std::vector<Sighting> search(const PixelGrid& grid, const RadiusRange& range) {
   constexpr double step = 1.25;
-  constexpr std::size_t enough = 800;
+  constexpr std::size_t enough = 500;
   const double deviation_max = std::log(step);
   const Everywhere places(grid.size());
   std::vector<Sighting> sightings;
@@ -159,7 +159,7 @@ std::size_t separate_places(const PixelGrid& grid, const std::vector<Sighting>& 
 // Around this radius only.
 std::vector<Sighting> look_closely(const PixelGrid& grid, double radius) {
   constexpr double deviation_max = 0.25;
-  constexpr std::size_t enough = 1500;
+  constexpr std::size_t enough = 800;
   const Everywhere places(grid.size());
   std::vector<Sighting> sightings;
   for (std::size_t i = 0; i < std::min(looked_at, places.size()) && sightings.size() < enough; ++i) {
@@ -191,8 +191,11 @@ RadiusEstimate refined(const PixelGrid& grid, double radius, const RadiusRange& 
     if (sightings.size() < sightings_min || places < places_min) give_up_without_tubes(grid, range);
     const double next = median(radii_of(sightings));
     const bool is_settled = std::abs(next / radius - 1) < settled;
+    if (!is_settled && round == rounds_max)
+      give_up(
+          fmt::format("the estimate does not settle, at {} or {}", millimetres(radius), millimetres(next)));
     radius = next;
-    if (!is_settled && round < rounds_max) continue;
+    if (!is_settled) continue;
     const double scatter = scatter_about(radius, radii_of(sightings));
     const double of_median = std::sqrt(std::numbers::pi / 2);  // against the mean
     return {radius, of_median * scatter / std::sqrt(static_cast<double>(places)), scatter, round, places};

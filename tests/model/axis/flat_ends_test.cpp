@@ -60,8 +60,12 @@ TEST(FlatEnds, LeaveWhatLiesBeyondThem) {
   const Model model = model_tubes(cloud, on_a_plane(0.0125, 0.2));
   ASSERT_EQ(model.tubes.size(), 1U);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (cloud.labels[i] == 1) ASSERT_EQ(model.labels[i], 1);
-    if (cloud.labels[i] == 2 && cloud.points[i].x() > 0.0575F) ASSERT_EQ(model.labels[i], null_label);
+    if (cloud.labels[i] == 1) {
+      ASSERT_EQ(model.labels[i], 1);
+    }
+    if (cloud.labels[i] == 2 && cloud.points[i].x() > 0.0575F) {
+      ASSERT_EQ(model.labels[i], null_label);
+    }
   }
 }
 

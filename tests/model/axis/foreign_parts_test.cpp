@@ -42,10 +42,11 @@ std::vector<Thing> a_tube_among_foreign_parts(const test::Surface& floor) {
 void expect_only_the_tube(const PointCloud& cloud, const Model& model) {
   ASSERT_EQ(model.tubes.size(), 1U);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (cloud.labels[i] == label_of_tube)
+    if (cloud.labels[i] == label_of_tube) {
       ASSERT_EQ(model.labels[i], 1) << "at " << cloud.points[i].transpose();
-    if (cloud.labels[i] == label_of_others)
+    } else if (cloud.labels[i] == label_of_others) {
       ASSERT_EQ(model.labels[i], null_label) << "at " << cloud.points[i].transpose();
+    }
   }
 }
 
