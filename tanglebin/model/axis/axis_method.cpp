@@ -90,9 +90,10 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   clock.end_step("fragment", total(result.kinds, [](const auto& steps) { return steps.fragments.size(); }),
                  "fragments");
 
-  const RangeImage seen(points_seen(cloud, cropped, model.filtered, ratio, seed), known.camera);
+  const RangeImage seen(points_seen(cloud, cropped, model.filtered, ratio, seed), known.camera,
+                        solid_parts(known.support));
   for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
-    const TubeKind kind = with_length(known_kind, steps.fragments, seen, known.support, settings.link);
+    const TubeKind kind = with_length(known_kind, steps.fragments, seen, settings.link);
     steps.links = find_links(steps.fragments, seen, kind, settings.link,
                              space_of_other_kinds(result.kinds, known, steps));
     steps.chosen = choose_links(steps.fragments, steps.links, kind, settings.link);

@@ -1,6 +1,7 @@
 #include "tanglebin/model/axis/length.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <set>
 #include <utility>
@@ -13,16 +14,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The chain does not go on where the sensor saw past it, nor inside the support.
-bool is_free(const FragmentEnd& end, double radius, const RangeImage& seen, const Support& support) {
-  const std::vector<Eigen::AlignedBox3d> solid = solid_parts(support);
-  for (const double beyond : {1.6, 2.2}) {  // radii; a round end reaches one beyond the end of the axis
-    const Vector3d place = end.position + beyond * radius * end.outward;
-    const bool is_solid =
-        std::ranges::any_of(solid, [&](const Eigen::AlignedBox3d& part) { return part.contains(place); });
-    if (!is_solid && !seen.shows_empty(place, radius)) return false;
-  }
-  return true;
+// The sensor saw that the chain does not go on.
+bool is_free(const FragmentEnd& end, double radius, const RangeImage& seen) {
+  constexpr std::array<double, 2> beyond = {1.6,
+                                            2.2};  // radii; a round end is one beyond the end of the axis
+  return std::ranges::all_of(beyond, [&](double way) {
+    return seen.shows_empty(end.position + way * radius * end.outward, radius);
+  });
 }
 
 // The length of each chain of these fragments that is seen from end to end, m.
@@ -79,13 +77,12 @@ Agreement agreement_of(const std::vector<double>& lengths) {
 }  // namespace
 
 TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
-                     const Support& support, const LinkSettings& settings) {
+                     const LinkSettings& settings) {
   if (kind.length_is_known() || fragments.empty()) return kind;
   std::vector<std::vector<bool>> free_ends;
   for (const Fragment& fragment : fragments) {
     free_ends.emplace_back();
-    for (const FragmentEnd& end : fragment.ends)
-      free_ends.back().push_back(is_free(end, kind.radius, seen, support));
+    for (const FragmentEnd& end : fragment.ends) free_ends.back().push_back(is_free(end, kind.radius, seen));
   }
   const double longest = std::ranges::max_element(fragments, {}, &Fragment::length)->length;
   constexpr double hidden = 1.5;     // of what is seen

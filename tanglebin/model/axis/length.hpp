@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "tanglebin/geometry/support.hpp"
 #include "tanglebin/model/axis/axis_settings.hpp"
 #include "tanglebin/model/axis/fragments.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"
@@ -12,8 +11,8 @@ namespace tanglebin {
 
 /// A kind of chains, with a length if it had none: the length, m, that most of the chains have of which the
 /// sensor saw both ends, and else the longest of these. If there are none, half as much again as the longest
-/// fragment. Fragments and support in the support's frame.
+/// fragment.
 TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
-                     const Support& support, const LinkSettings& settings);
+                     const LinkSettings& settings);
 
 }  // namespace tanglebin
