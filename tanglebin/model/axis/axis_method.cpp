@@ -47,11 +47,15 @@ std::vector<Ball> space_of_other_kinds(const std::vector<AxisSteps>& kinds, cons
   return space;
 }
 
-// Not the rim of a bin, nor a pipe of quite another radius. What shows too little is taken for a tube.
-bool is_round(const std::optional<double>& roundness) {
+// Not the rim of a bin, nor a pipe of quite another radius. What shows too little to tell is taken for a tube
+// where the support is known: there may be walls in the cloud where it is not. And not a ball: an upright
+// tube shows one if its ends are round.
+bool is_tube(const Tube& tube, const std::optional<double>& roundness, const Support& support) {
   constexpr double least = 0.6;
   constexpr double most = 1.6;
-  return !roundness || (*roundness > least && *roundness < most);
+  if (!roundness && support.shape == Support::Shape::nothing) return false;
+  if (roundness && (*roundness < least || *roundness > most)) return false;
+  return !tube.flat_ends || total_length(tube) > tube.radius;
 }
 
 std::size_t number_of_votes(const AxisSteps& steps) {
@@ -94,6 +98,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
                         solid_parts(known.support));
   for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
     const TubeKind kind = with_length(known_kind, steps.fragments, seen, settings.link);
+    steps.length = kind.length();
     steps.links = find_links(steps.fragments, seen, kind, settings.link,
                              space_of_other_kinds(result.kinds, known, steps));
     steps.chosen = choose_links(steps.fragments, steps.links, kind, settings.link);
@@ -105,7 +110,8 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
     std::erase_if(steps.tubes, [&](const std::vector<std::size_t>& fragments) {
       Tube tube = fit_tube(steps.fragments, fragments, steps.links, steps.chosen, points, kind, settings.fit);
-      if (!is_round(roundness(tube, steps.fragments, fragments, points, steps.votes, known.camera)))
+      if (!is_tube(tube, roundness(tube, steps.fragments, fragments, points, steps.votes, known.camera),
+                   known.support))
         return true;
       tube.id = static_cast<int>(model.tubes.size()) + 1;
       claim_points(claimed, tube, fragments, steps, model.filtered);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <set>
 #include <utility>
@@ -23,7 +24,7 @@ bool is_free(const FragmentEnd& end, double radius, const RangeImage& seen) {
   });
 }
 
-// The length of each chain of these fragments that is seen from end to end, m.
+// The lengths of the chains of these fragments that are seen from end to end, ascending. m
 std::vector<double> lengths_of_whole_chains(const std::vector<Fragment>& fragments,
                                             const std::vector<Link>& links,
                                             const std::vector<std::size_t>& chosen,
@@ -49,6 +50,7 @@ std::vector<double> lengths_of_whole_chains(const std::vector<Fragment>& fragmen
     }
     if (is_whole) lengths.push_back(length);
   }
+  std::ranges::sort(lengths);
   return lengths;
 }
 
@@ -74,11 +76,19 @@ Agreement agreement_of(const std::vector<double>& lengths) {
   return best;
 }
 
+// A range that is wider than what a length is allowed to be wrong by says as little as none.
+bool is_length_to_be_found(const TubeKind& kind, const LinkSettings& settings) {
+  if (kind.branches()) return false;
+  return !kind.length_is_known() ||
+         (kind.length_min > 0 && kind.length_min * (1 + settings.length_tolerance) < kind.length());
+}
+
 }  // namespace
 
 TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                      const LinkSettings& settings) {
-  if (kind.length_is_known() || fragments.empty()) return kind;
+  if (!is_length_to_be_found(kind, settings) || fragments.empty()) return kind;
+  const double most = kind.length();
   std::vector<std::vector<bool>> free_ends;
   for (const Fragment& fragment : fragments) {
     free_ends.emplace_back();
@@ -88,20 +98,20 @@ TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, cons
   constexpr double hidden = 1.5;     // of what is seen
   constexpr std::size_t enough = 3;  // chains that agree
   std::vector<double> lengths = lengths_of_whole_chains(fragments, {}, {}, free_ends);
-  std::ranges::sort(lengths);
   Agreement agreement = agreement_of(lengths);
   if (agreement.chains < enough || agreement.length < longest / (1 + settings.length_tolerance)) {
     // Too few are seen in one piece.
-    kind.segments[0].length = hidden * std::max(longest, agreement.length);
+    kind.segments[0].length = std::min(most, hidden * std::max(longest, agreement.length));
     const std::vector<Link> links = find_links(fragments, seen, kind, settings);
     lengths =
         lengths_of_whole_chains(fragments, links, choose_links(fragments, links, kind, settings), free_ends);
-    std::ranges::sort(lengths);
     agreement = agreement_of(lengths);
   }
   if (lengths.empty()) return kind;
-  kind.segments[0].length =
-      std::max(longest, 2 * agreement.chains > lengths.size() ? agreement.length : lengths.back());
+  const bool most_agree = 2 * agreement.chains > lengths.size();
+  const double of_some = std::isfinite(most) ? most : lengths.back();
+  kind.segments[0].length = std::clamp(most_agree ? agreement.length : of_some,
+                                       std::max(longest, kind.length_min), std::max(longest, most));
   return kind;
 }
 

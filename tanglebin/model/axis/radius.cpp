@@ -60,7 +60,7 @@ private:
   std::size_t size_;
 };
 
-constexpr std::size_t looked_at = 12000;  // places at most
+constexpr std::size_t looked_at = 5000;  // places at most
 constexpr double error_max = 0.1;         // of the radius
 
 std::optional<Sighting> sighting(const PixelGrid& grid, std::size_t item, double reach,
@@ -214,7 +214,7 @@ RadiusEstimate estimate_radius(const PointCloud& cloud, const KnownScene& known,
   const Histogram histogram(sightings);
   const double radius = histogram.radius(histogram.highest());
   if (const auto other = histogram.other_peak()) {
-    const auto [thin, thick] = std::minmax(radius, histogram.radius(*other));
+    const auto [thin, thick] = std::minmax({radius, histogram.radius(*other)});
     give_up(fmt::format("the cloud shows tubes of several radii, of about {} and {}", millimetres(thin),
                         millimetres(thick)));
   }

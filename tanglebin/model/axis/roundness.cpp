@@ -32,8 +32,8 @@ std::optional<Nearest> nearest_cylinder(const std::vector<Capsule>& capsules, co
   return nearest;
 }
 
-/// Sums of two angles, rad, for the line of the second over the first.
-struct Regression {
+/// Sums of two angles, rad.
+struct Angles {
   double count = 0;
   double first = 0, second = 0, squares = 0, products = 0;
 
@@ -44,9 +44,25 @@ struct Regression {
     squares += x * x;
     products += x * y;
   }
-  double variance() const { return squares / count - first / count * first / count; }
-  double slope() const { return (products / count - first / count * second / count) / variance(); }
 };
+
+// Angles around the axis, from the direction of the sensor: of the points of a fragment, and of their
+// normals.
+Angles angles_of(const Fragment& fragment, std::size_t stride, const std::vector<Capsule>& pieces,
+                 const std::vector<Eigen::Vector3f>& points, const AxisVotes& votes, const Vector3d& sensor) {
+  Angles angles;
+  for (std::size_t i = 0; i < fragment.points.size(); i += stride) {
+    const Vector3d point = points[fragment.points[i]].cast<double>();
+    const std::optional<Nearest> nearest = nearest_cylinder(pieces, point);
+    if (!nearest) continue;
+    const Vector3d side = nearest->along.cross(sensor - point).normalized();
+    const Vector3d front = side.cross(nearest->along);
+    const Vector3d normal = votes.normals[fragment.points[i]].cast<double>();
+    angles.add(std::atan2(nearest->way.dot(side), nearest->way.dot(front)),
+               std::atan2(normal.dot(side), normal.dot(front)));
+  }
+  return angles;
+}
 
 }  // namespace
 
@@ -54,28 +70,27 @@ std::optional<double> roundness(const Tube& tube, const std::vector<Fragment>& f
                                 const std::vector<std::size_t>& members,
                                 const std::vector<Eigen::Vector3f>& points, const AxisVotes& votes,
                                 const Camera& camera) {
-  std::vector<std::size_t> all;
-  for (const std::size_t member : members)
-    all.insert(all.end(), fragments[member].points.begin(), fragments[member].points.end());
+  std::size_t all = 0;
+  for (const std::size_t member : members) all += fragments[member].points.size();
   constexpr std::size_t looked_at = 400;
-  const std::size_t stride = all.size() / looked_at + 1;
+  const std::size_t stride = all / looked_at + 1;
   const std::vector<Capsule> pieces = capsules(tube);
-  Regression turn;
-  for (std::size_t i = 0; i < all.size(); i += stride) {
-    const Vector3d point = points[all[i]].cast<double>();
-    const std::optional<Nearest> nearest = nearest_cylinder(pieces, point);
-    if (!nearest) continue;
-    // Angles around the axis, from the direction of the sensor.
-    const Vector3d side = nearest->along.cross(camera.pose.translation() - point).normalized();
-    const Vector3d front = side.cross(nearest->along);
-    const Vector3d normal = votes.normals[all[i]].cast<double>();
-    turn.add(std::atan2(nearest->way.dot(side), nearest->way.dot(front)),
-             std::atan2(normal.dot(side), normal.dot(front)));
+  // The line of the second angle over the first, within the fragments: these may be on different surfaces.
+  double count = 0;
+  double variance = 0;
+  double covariance = 0;
+  for (const std::size_t member : members) {
+    const Angles angles =
+        angles_of(fragments[member], stride, pieces, points, votes, camera.pose.translation());
+    if (angles.count == 0) continue;
+    count += angles.count;
+    variance += angles.squares - angles.first * angles.first / angles.count;
+    covariance += angles.products - angles.first * angles.second / angles.count;
   }
   constexpr double points_min = 20;
   constexpr double arc_min = 0.2;  // rad, standard deviation
-  if (turn.count < points_min || turn.variance() < arc_min * arc_min) return std::nullopt;
-  return turn.slope();
+  if (count < points_min || variance < arc_min * arc_min * count) return std::nullopt;
+  return covariance / variance;
 }
 
 }  // namespace tanglebin
