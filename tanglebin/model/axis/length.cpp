@@ -76,29 +76,37 @@ Agreement agreement_of(const std::vector<double>& lengths) {
   return best;
 }
 
+// The chains that are seen from end to end are right if the length given is too short for them.
+double longer_of(const TubeKind& kind, double length, const LinkSettings& settings) {
+  return length > length_max(kind, settings) ? length : kind.length();
+}
+
 // A range that is wider than what a length is allowed to be wrong by says as little as none.
-bool is_length_to_be_found(const TubeKind& kind, const LinkSettings& settings) {
-  if (kind.branches()) return false;
-  return !kind.length_is_known() ||
-         (kind.length_min > 0 && kind.length_min * (1 + settings.length_tolerance) < kind.length());
+bool has_length(const TubeKind& kind, const LinkSettings& settings) {
+  return kind.length_is_known() &&
+         (kind.length_min == 0 || kind.length_min * (1 + settings.length_tolerance) >= kind.length());
 }
 
 }  // namespace
 
 TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                      const LinkSettings& settings) {
-  if (!is_length_to_be_found(kind, settings) || fragments.empty()) return kind;
-  const double most = kind.length();
+  if (kind.branches() || fragments.empty()) return kind;
+  constexpr std::size_t enough = 3;  // chains that agree
   std::vector<std::vector<bool>> free_ends;
   for (const Fragment& fragment : fragments) {
     free_ends.emplace_back();
     for (const FragmentEnd& end : fragment.ends) free_ends.back().push_back(is_free(end, kind.radius, seen));
   }
-  const double longest = std::ranges::max_element(fragments, {}, &Fragment::length)->length;
-  constexpr double hidden = 1.5;     // of what is seen
-  constexpr std::size_t enough = 3;  // chains that agree
   std::vector<double> lengths = lengths_of_whole_chains(fragments, {}, {}, free_ends);
   Agreement agreement = agreement_of(lengths);
+  if (has_length(kind, settings)) {
+    if (agreement.chains >= enough) kind.segments[0].length = longer_of(kind, agreement.length, settings);
+    return kind;
+  }
+  const double most = kind.length();
+  const double longest = std::ranges::max_element(fragments, {}, &Fragment::length)->length;
+  constexpr double hidden = 1.5;  // of what is seen
   if (agreement.chains < enough || agreement.length < longest / (1 + settings.length_tolerance)) {
     // Too few are seen in one piece.
     kind.segments[0].length = std::min(most, hidden * std::max(longest, agreement.length));

@@ -18,7 +18,9 @@ struct Nearest {
   Vector3d way;    // m, from the axis to the point
 };
 
-std::optional<Nearest> nearest_cylinder(const std::vector<Capsule>& capsules, const Vector3d& point) {
+// The cylinder's direction is that in which it does not turn back against `forward`.
+std::optional<Nearest> nearest_cylinder(const std::vector<Capsule>& capsules, const Vector3d& forward,
+                                        const Vector3d& point) {
   std::optional<Nearest> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (const Capsule& capsule : capsules) {
@@ -27,7 +29,9 @@ std::optional<Nearest> nearest_cylinder(const std::vector<Capsule>& capsules, co
     if (way.norm() >= least) continue;
     least = way.norm();
     nearest.reset();
-    if (t > 0 && t < 1) nearest = Nearest{(capsule.b - capsule.a).normalized(), way};
+    if (!(t > 0 && t < 1)) continue;
+    const Vector3d along = (capsule.b - capsule.a).normalized();
+    nearest = Nearest{along.dot(forward) < 0 ? Vector3d(-along) : along, way};
   }
   return nearest;
 }
@@ -50,11 +54,15 @@ struct Angles {
 // normals.
 Angles angles_of(const Fragment& fragment, std::size_t stride, const std::vector<Capsule>& pieces,
                  const std::vector<Eigen::Vector3f>& points, const AxisVotes& votes, const Vector3d& sensor) {
+  constexpr double off_max = 0.3;  // radii; what is farther from the side may be on a face
+  const double radius = pieces.front().radius;
+  const Capsule& longest = *std::ranges::max_element(
+      pieces, {}, [](const Capsule& piece) { return (piece.b - piece.a).squaredNorm(); });
   Angles angles;
   for (std::size_t i = 0; i < fragment.points.size(); i += stride) {
     const Vector3d point = points[fragment.points[i]].cast<double>();
-    const std::optional<Nearest> nearest = nearest_cylinder(pieces, point);
-    if (!nearest) continue;
+    const std::optional<Nearest> nearest = nearest_cylinder(pieces, longest.b - longest.a, point);
+    if (!nearest || std::abs(nearest->way.norm() / radius - 1) > off_max) continue;
     const Vector3d side = nearest->along.cross(sensor - point).normalized();
     const Vector3d front = side.cross(nearest->along);
     const Vector3d normal = votes.normals[fragment.points[i]].cast<double>();
@@ -75,6 +83,7 @@ std::optional<double> roundness(const Tube& tube, const std::vector<Fragment>& f
   constexpr std::size_t looked_at = 400;
   const std::size_t stride = all / looked_at + 1;
   const std::vector<Capsule> pieces = capsules(tube);
+  if (pieces.empty()) return std::nullopt;
   // The line of the second angle over the first, within the fragments: these may be on different surfaces.
   double count = 0;
   double variance = 0;

@@ -176,21 +176,24 @@ void straighten_ends(LineTree& line, double radius) {
   }
 }
 
-// Moves each end along its last piece to where the points end, except for the outermost as noise.
-void cut_ends(LineTree& line, const std::vector<Vector3d>& points, double radius) {
+// Moves each end along its last piece to where the points on the side end, except for the outermost as noise.
+// Those at the rim of a face have no votes, and so are in no fragment: all points are looked at.
+void cut_ends(LineTree& line, const std::vector<Eigen::Vector3f>& points, double radius) {
   const std::vector<Neighbours> neighbours = neighbours_in(line);
   for (std::size_t node = 0; node < line.nodes.size(); ++node) {
     if (neighbours[node].size() != 1) continue;
-    const Vector3d& end = line.nodes[node];
+    const Vector3d end = line.nodes[node];
     const Vector3d piece = end - line.nodes[neighbours[node][0]];
-    const double reach = 2 * radius;
     if (piece.norm() < radius / 2) continue;
     const Vector3d outward = piece.normalized();
+    const double back = 2 * radius;
+    const double ahead = 0.6 * radius;
     std::vector<double> beyond;
-    for (const Vector3d& point : points) {
-      const double along = (point - end).dot(outward);
-      const double aside = (point - end - along * outward).norm();
-      if (std::abs(along) < reach && aside < 1.1 * radius) beyond.push_back(along);
+    for (const Eigen::Vector3f& point : points) {
+      const Vector3d way = point.cast<double>() - end;
+      const double along = way.dot(outward);
+      if (!(along > -back && along < ahead)) continue;
+      if (std::abs((way - along * outward).norm() - radius) < 0.1 * radius) beyond.push_back(along);
     }
     constexpr std::size_t enough = 8;
     constexpr std::size_t outermost = 50;  // one of so many
@@ -210,6 +213,7 @@ std::vector<Vector3d> some_points(const std::vector<Fragment>& fragments,
   }
   const std::size_t stride = all.size() / points_max + 1;
   std::vector<Vector3d> some;
+  some.reserve(points_max);
   for (std::size_t i = 0; i < all.size(); i += stride) some.emplace_back(points[all[i]].cast<double>());
   return some;
 }
@@ -246,8 +250,7 @@ Tube fit_tube(const std::vector<Fragment>& fragments, const std::vector<std::siz
   const std::vector<Vector3d> fitted_to = some_points(fragments, members, points, settings.points_max);
   const Shape shape{radius, settings.residual_max * radius, kind.flat_ends};
   for (int i = 0; i < settings.iterations; ++i) improve(line, fitted_to, shape);
-  if (kind.flat_ends)
-    cut_ends(line, some_points(fragments, members, points, std::numeric_limits<std::size_t>::max()), radius);
+  if (kind.flat_ends) cut_ends(line, points, radius);
   Tube tube = tube_of(line, radius);
   tube.flat_ends = kind.flat_ends;
   return tube;

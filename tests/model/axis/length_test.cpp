@@ -45,6 +45,14 @@ TEST(WithLength, IsTheOneGivenIfItIsGiven) {
   EXPECT_EQ(modelled_with(two_in_line(), 0.295, 0.3).kinds[0].length, 0.3);
 }
 
+TEST(WithLength, IsNotTheOneGivenIfThreeTubesAreLonger) {
+  EXPECT_EQ(modelled_with(two_in_line(), 0, 0.22).kinds[0].length, 0.22);
+  const std::vector<Tube> longer = {test::chain(1, 0.0125, {{-0.2, -0.1, 0.0125}, {0.04, -0.1, 0.0125}}),
+                                    test::chain(2, 0.0125, {{-0.2, 0, 0.0125}, {0.04, 0, 0.0125}}),
+                                    test::chain(3, 0.0125, {{-0.2, 0.1, 0.0125}, {0.04, 0.1, 0.0125}})};
+  EXPECT_NEAR(modelled_with(longer, 0, 0.22).kinds[0].length, 0.24, 0.005);
+}
+
 // Its ends are against the walls, which hide nothing.
 TEST(WithLength, CountsATubeBetweenTheWallsAsWhole) {
   const AxisModel found =

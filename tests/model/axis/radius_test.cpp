@@ -83,8 +83,9 @@ TEST(EstimateRadius, OfTubesOfSeveralRadiiIsAnError) {
   std::vector<Tube> tubes = three_tubes(0.0125);
   tubes.push_back(test::chain(4, 0.02, {{-0.2, 0.15, 0.02}, {0.2, 0.15, 0.02}}));
   tubes.push_back(test::chain(5, 0.02, {{-0.2, -0.15, 0.02}, {0.2, -0.15, 0.02}}));
-  EXPECT_EQ(test::complaint([&] { estimated(test::scanned(tubes)); }),
-            "radius: the cloud shows tubes of several radii, of about 12 mm and 20 mm; give the radius");
+  EXPECT_THAT(test::complaint([&] { estimated(test::scanned(tubes)); }),
+              testing::MatchesRegex("radius: the cloud shows tubes of several radii, of about 1[23] mm and "
+                                    "20 mm; give the radius"));
 }
 
 TEST(EstimateRadius, OfTooLittleIsAnError) {
