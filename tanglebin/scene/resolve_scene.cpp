@@ -9,7 +9,6 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/model/axis/radius.hpp"
-#include "tanglebin/model/scene/support_frame.hpp"
 #include "tanglebin/scene/image_of_cloud.hpp"
 
 namespace tanglebin {
@@ -217,14 +216,9 @@ void move(PointCloud& cloud, const Isometry3d& motion) {
   for (Eigen::Vector3f& point : cloud.points) point = (motion * point.cast<double>()).cast<float>();
 }
 
-double radius_from(const PointCloud& cloud, const KnownScene& known,
-                   const std::optional<LengthRange>& range) {
-  const Seen seen = in_support_frame(cloud, known);
-  const double radius = estimate_radius(seen.cloud, seen.known);
-  if (range && (radius < range->min || radius > range->max))
-    throw InputError({"", 0, "radius"}, fmt::format("tubes of {:.5f} m", radius),
-                     fmt::format("{} to {} m", range->min, range->max));
-  return radius;
+RadiusEstimate radius_from(const PointCloud& cloud, const KnownScene& known,
+                           const std::optional<LengthRange>& range) {
+  return range ? estimate_radius(cloud, known, {range->min, range->max}) : estimate_radius(cloud, known);
 }
 
 // A radius that is exactly known, or else 0.
@@ -248,8 +242,10 @@ void find_kinds(const Scene& scene, ResolvedScene& resolved) {
         throw InputError({"", 0, "radius"},
                          fmt::format("{} classes of tubes, one without a radius", classes.size()),
                          "a number for each; only the radius of a single class can be estimated");
-      kind.radius = radius_from(resolved.cloud, resolved.known, tubes.radius);
-      resolved.notes.push_back(fmt::format("the radius is estimated: {:.5f} m", kind.radius));
+      const RadiusEstimate found = radius_from(resolved.cloud, resolved.known, tubes.radius);
+      kind.radius = found.radius;
+      resolved.notes.push_back(
+          fmt::format("the radius is estimated: {:.5f} m, to {:.5f} m", found.radius, found.standard_error));
     }
     resolved.known.kinds.push_back(kind);
   }

@@ -57,6 +57,15 @@ TEST_P(ModelTubes, FindsTheTubesOfAnEasyScene) {
   }
 }
 
+TEST_P(ModelTubes, FindsTheSameOfUnknownLength) {
+  const PointCloud cloud = scanned(three_tubes());
+  KnownScene known = paper_scene();
+  known.kinds[0].segments[0].length = std::numeric_limits<double>::infinity();
+  const Model model = model_tubes(cloud, known, {.method = GetParam(), .seed = 1});
+  EXPECT_EQ(model.tubes.size(), 3U);
+  EXPECT_EQ(model.labels, modelled(cloud).labels);
+}
+
 TEST_P(ModelTubes, FindsThemInAShareOfThePointsAndLabelsTheRest) {
   const PointCloud cloud = scanned(three_tubes());
   const Model model = modelled(cloud, 0.3);

@@ -1,11 +1,14 @@
 #include "tanglebin/model/axis/axis_method.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/model/axis/choose_links.hpp"
 #include "tanglebin/model/axis/kinds.hpp"
+#include "tanglebin/model/axis/length.hpp"
+#include "tanglebin/model/axis/roundness.hpp"
 #include "tanglebin/model/scene/range_image.hpp"
 #include "tanglebin/model/scene/step_clock.hpp"
 
@@ -44,6 +47,17 @@ std::vector<Ball> space_of_other_kinds(const std::vector<AxisSteps>& kinds, cons
   return space;
 }
 
+// Not the rim of a bin, nor a pipe of quite another radius. What shows too little to tell is taken for a tube
+// where the support is known: there may be walls in the cloud where it is not. And not a ball: an upright
+// tube shows one if its ends are round.
+bool is_tube(const Tube& tube, const std::optional<double>& roundness, const Support& support) {
+  constexpr double least = 0.6;
+  constexpr double most = 1.6;
+  if (!roundness && support.shape == Support::Shape::nothing) return false;
+  if (roundness && (*roundness < least || *roundness > most)) return false;
+  return !tube.flat_ends || total_length(tube) > tube.radius;
+}
+
 std::size_t number_of_votes(const AxisSteps& steps) {
   return static_cast<std::size_t>(
       std::ranges::count_if(steps.votes.votes, [](const Vector3f& vote) { return vote.allFinite(); }));
@@ -80,8 +94,11 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   clock.end_step("fragment", total(result.kinds, [](const auto& steps) { return steps.fragments.size(); }),
                  "fragments");
 
-  const RangeImage seen(points_seen(cloud, cropped, model.filtered, ratio, seed), known.camera);
-  for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
+  const RangeImage seen(points_seen(cloud, cropped, model.filtered, ratio, seed), known.camera,
+                        solid_parts(known.support));
+  for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
+    const TubeKind kind = with_length(known_kind, steps.fragments, seen, settings.link);
+    steps.length = kind.length();
     steps.links = find_links(steps.fragments, seen, kind, settings.link,
                              space_of_other_kinds(result.kinds, known, steps));
     steps.chosen = choose_links(steps.fragments, steps.links, kind, settings.link);
@@ -90,14 +107,17 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");
 
   std::vector<std::int32_t> claimed(cloud.points.size(), null_label);
-  for_each_kind([&](const AxisSteps& steps, const TubeKind& kind) {
-    for (const std::vector<std::size_t>& fragments : steps.tubes) {
-      Tube tube =
-          fit_tube(steps.fragments, fragments, steps.links, steps.chosen, points, kind.radius, settings.fit);
+  for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
+    std::erase_if(steps.tubes, [&](const std::vector<std::size_t>& fragments) {
+      Tube tube = fit_tube(steps.fragments, fragments, steps.links, steps.chosen, points, kind, settings.fit);
+      if (!is_tube(tube, roundness(tube, steps.fragments, fragments, points, steps.votes, known.camera),
+                   known.support))
+        return true;
       tube.id = static_cast<int>(model.tubes.size()) + 1;
       claim_points(claimed, tube, fragments, steps, model.filtered);
       model.tubes.push_back(std::move(tube));
-    }
+      return false;
+    });
   });
   clock.end_step("fit", model.tubes.size(), "tubes");
 

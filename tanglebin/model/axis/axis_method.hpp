@@ -22,7 +22,8 @@ struct AxisSteps {
   std::vector<Fragment> fragments;
   std::vector<Link> links;
   std::vector<std::size_t> chosen;              ///< indices into links
-  std::vector<std::vector<std::size_t>> tubes;  ///< the fragments of each tube
+  std::vector<std::vector<std::size_t>> tubes;  ///< the fragments of each tube, in the order of Model::tubes
+  double length = 0;                            ///< m, of these tubes; found if it was not known
 };
 
 /// A model, with the results of the steps for each known kind of tube.

@@ -46,7 +46,7 @@ AxisVotes vote_for_axes(const std::vector<Vector3f>& points, const Support& supp
   const Boxes solid = in_single_precision(solid_parts(support));
   const PixelGrid grid(without_floor(points, support, settings.floor_margin * radius), camera);
   const float reach = suitable_reach(grid, radius, settings.patch);
-  const std::vector<std::optional<Patch>> patches = surface_patches(grid, reach, settings.patch);
+  const std::vector<std::optional<Patch>> patches = surface_patches(grid, reach, radius, settings.patch);
   for (std::size_t item = 0; item < patches.size(); ++item) {
     if (!patches[item]) continue;
     const Patch& patch = *patches[item];

@@ -145,7 +145,7 @@ float suitable_reach(const PixelGrid& grid, double radius, const PatchSettings& 
   return std::clamp(most * std::sqrt(wanted), least, most);
 }
 
-std::vector<std::optional<Patch>> surface_patches(const PixelGrid& grid, float reach,
+std::vector<std::optional<Patch>> surface_patches(const PixelGrid& grid, float reach, double radius,
                                                   const PatchSettings& settings) {
   std::vector<std::optional<Patch>> patches;
   patches.reserve(grid.size());
@@ -156,7 +156,11 @@ std::vector<std::optional<Patch>> surface_patches(const PixelGrid& grid, float r
     if (patches.back()) roughness.push_back(patches.back()->roughness);
   }
   if (roughness.empty()) return patches;
-  const float most = static_cast<float>(settings.roughness_max) * median(std::move(roughness));
+  // Of a disc on a cylinder: the variance of x² / 2r.
+  const auto share = reach / static_cast<float>(radius);
+  const float of_a_tube = share * share / 64;
+  const float most =
+      static_cast<float>(settings.roughness_max) * std::max(of_a_tube, median(std::move(roughness)));
   for (std::optional<Patch>& patch : patches) {
     if (patch && patch->roughness > most) patch.reset();
   }

@@ -22,8 +22,9 @@ struct Patch {
 float suitable_reach(const PixelGrid& grid, double radius, const PatchSettings& settings);
 
 /// The patch around each point of the grid, from its neighbours within the reach (m). None if these are too
-/// few, on a line, or not on a plane, as where two surfaces meet.
-std::vector<std::optional<Patch>> surface_patches(const PixelGrid& grid, float reach,
+/// few, on a line, or not on a plane, as where two surfaces meet. Whatever else is in the cloud, a patch of a
+/// tube of this radius (m) is as good as a plane.
+std::vector<std::optional<Patch>> surface_patches(const PixelGrid& grid, float reach, double radius,
                                                   const PatchSettings& settings);
 
 }  // namespace tanglebin

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "tanglebin/geometry/capsule.hpp"
@@ -92,17 +93,32 @@ Foot foot_of(const LineTree& line, const Vector3d& point) {
   return foot;
 }
 
+/// What the points are fitted with.
+struct Shape {
+  double radius;        // m
+  double residual_max;  // m
+  bool flat_ends;
+};
+
+// Around an end that is rounded off, the surface is that of a ball. A face says nothing of the axis.
+bool is_on_face(const LineTree& line, const std::vector<Neighbours>& neighbours, const Foot& foot) {
+  if (foot.t > 0 && foot.t < 1) return false;
+  return neighbours[line.edges[foot.edge][foot.t > 0 ? 1 : 0]].size() == 1;
+}
+
 // One Gauss-Newton step on the distances of the points to the surface. Damped, so that parts without points
 // stay in place.
-void improve(LineTree& line, const std::vector<Vector3d>& points, double radius, double residual_max) {
+void improve(LineTree& line, const std::vector<Vector3d>& points, const Shape& shape) {
+  const std::vector<Neighbours> neighbours = neighbours_in(line);
   const auto size = static_cast<Eigen::Index>(3 * line.nodes.size());
   Eigen::MatrixXd normal_matrix = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd right_side = Eigen::VectorXd::Zero(size);
   for (const Vector3d& point : points) {
     const Foot foot = foot_of(line, point);
     const double distance = foot.way.norm();
-    const double residual = distance - radius;
-    if (std::abs(residual) > residual_max) continue;
+    const double residual = distance - shape.radius;
+    if (std::abs(residual) > shape.residual_max) continue;
+    if (shape.flat_ends && is_on_face(line, neighbours, foot)) continue;
     const Vector3d direction = foot.way / distance;
     const auto a = static_cast<Eigen::Index>(3 * line.edges[foot.edge][0]);
     const auto b = static_cast<Eigen::Index>(3 * line.edges[foot.edge][1]);
@@ -121,6 +137,70 @@ void improve(LineTree& line, const std::vector<Vector3d>& points, double radius,
   const Eigen::VectorXd step = normal_matrix.ldlt().solve(right_side);
   for (std::size_t node = 0; node < line.nodes.size(); ++node) {
     line.nodes[node] += step.segment<3>(static_cast<Eigen::Index>(3 * node));
+  }
+}
+
+// The nodes from an end to the next end or junction.
+std::vector<std::size_t> path_from(std::size_t end, const std::vector<Neighbours>& neighbours) {
+  std::vector<std::size_t> path{end, neighbours[end][0]};
+  while (neighbours[path.back()].size() == 2) {
+    const Neighbours& around = neighbours[path.back()];
+    path.push_back(around[0] == path[path.size() - 2] ? around[1] : around[0]);
+  }
+  return path;
+}
+
+// The votes of a face are a disc one radius inside the tube, which draws the end of the centre line aside. So
+// the line goes straight on from where it is clear of that. Where it is too short, it stays as it is.
+void straighten_end(LineTree& line, const std::vector<std::size_t>& path, double radius) {
+  const double clear = 1.6 * radius;
+  const double seen_to = 4 * radius;
+  std::vector<double> ways{0};
+  for (std::size_t i = 1; i < path.size(); ++i)
+    ways.push_back(ways.back() + (line.nodes[path[i]] - line.nodes[path[i - 1]]).norm());
+  const auto first_beyond = [&](double way) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(ways, way) - ways.begin());
+  };
+  const std::size_t from = first_beyond(clear);
+  const std::size_t back = std::min(first_beyond(seen_to), path.size() - 1);
+  if (from >= back) return;
+  const Vector3d start = line.nodes[path[from]];
+  const Vector3d outward = (start - line.nodes[path[back]]).normalized();
+  for (std::size_t i = 0; i < from; ++i) line.nodes[path[i]] = start + (ways[from] - ways[i]) * outward;
+}
+
+void straighten_ends(LineTree& line, double radius) {
+  const std::vector<Neighbours> neighbours = neighbours_in(line);
+  for (std::size_t node = 0; node < line.nodes.size(); ++node) {
+    if (neighbours[node].size() == 1) straighten_end(line, path_from(node, neighbours), radius);
+  }
+}
+
+// Moves each end along its last piece to where the points on the side end, except for the outermost as noise.
+// Those at the rim of a face have no votes, and so are in no fragment: all points are looked at.
+void cut_ends(LineTree& line, const std::vector<Eigen::Vector3f>& points, double radius) {
+  const std::vector<Neighbours> neighbours = neighbours_in(line);
+  for (std::size_t node = 0; node < line.nodes.size(); ++node) {
+    if (neighbours[node].size() != 1) continue;
+    const Vector3d end = line.nodes[node];
+    const Vector3d piece = end - line.nodes[neighbours[node][0]];
+    if (piece.norm() < radius / 2) continue;
+    const Vector3d outward = piece.normalized();
+    const double back = 2 * radius;
+    const double ahead = 0.6 * radius;
+    std::vector<double> beyond;
+    for (const Eigen::Vector3f& point : points) {
+      const Vector3d way = point.cast<double>() - end;
+      const double along = way.dot(outward);
+      if (!(along > -back && along < ahead)) continue;
+      if (std::abs((way - along * outward).norm() - radius) < 0.1 * radius) beyond.push_back(along);
+    }
+    constexpr std::size_t enough = 8;
+    constexpr std::size_t outermost = 50;  // one of so many
+    if (beyond.size() < enough) continue;
+    const auto last = beyond.begin() + static_cast<std::ptrdiff_t>(beyond.size() / outermost);
+    std::ranges::nth_element(beyond, last, std::greater<>());
+    line.nodes[node] += std::max(*last, radius / 4 - piece.norm()) * outward;
   }
 }
 
@@ -161,13 +241,19 @@ Tube tube_of(const LineTree& line, double radius) {
 
 Tube fit_tube(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members,
               const std::vector<Link>& links, const std::vector<std::size_t>& chosen,
-              const std::vector<Eigen::Vector3f>& points, double radius, const TubeFitSettings& settings) {
-  LineTree line =
-      simplified(assembled_line(fragments, members, links, chosen, radius), settings.tolerance * radius);
+              const std::vector<Eigen::Vector3f>& points, const TubeKind& kind,
+              const TubeFitSettings& settings) {
+  const double radius = kind.radius;
+  LineTree line = assembled_line(fragments, members, links, chosen, radius);
+  if (kind.flat_ends) straighten_ends(line, radius);
+  line = simplified(line, settings.tolerance * radius);
   const std::vector<Vector3d> fitted_to = some_points(fragments, members, points, settings.points_max);
-  for (int i = 0; i < settings.iterations; ++i)
-    improve(line, fitted_to, radius, settings.residual_max * radius);
-  return tube_of(line, radius);
+  const Shape shape{radius, settings.residual_max * radius, kind.flat_ends};
+  for (int i = 0; i < settings.iterations; ++i) improve(line, fitted_to, shape);
+  if (kind.flat_ends) cut_ends(line, points, radius);
+  Tube tube = tube_of(line, radius);
+  tube.flat_ends = kind.flat_ends;
+  return tube;
 }
 
 }  // namespace tanglebin

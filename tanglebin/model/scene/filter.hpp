@@ -15,7 +15,7 @@ struct Cropped {
   std::vector<std::size_t> kept;     ///< around the support, and not the support itself
   std::vector<std::size_t> support;  ///< on the plane, or on the bin's floor or walls
   std::vector<std::size_t> outside;  ///< too far from the support
-  std::vector<std::size_t> near;     ///< of those kept, the ones within the support's margin
+  std::vector<std::size_t> near{};   ///< of those kept, the ones within the support's margin
 };
 
 /// Sorts the points (m, in the support's frame) by the known support. The crop box follows the floor and

@@ -1,7 +1,10 @@
 #include "tanglebin/model/scene/label.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/model/scene/box_grid.hpp"
@@ -9,22 +12,43 @@
 namespace tanglebin {
 namespace {
 
+using Eigen::Vector3d;
+
 /// A piece of a tube's surface, with a box around all points near it.
 struct Claim {
   std::int32_t label;
   Capsule capsule;
+  std::array<bool, 2> is_flat;  // at a and at b
+  double distance_max;          // m
   Eigen::AlignedBox3d box;
 };
+
+// The number of edges at each node.
+std::vector<int> edges_at_nodes(const Tube& tube) {
+  std::vector<int> count(tube.nodes.size());
+  for (const Edge& edge : tube.edges) {
+    ++count[edge.from];
+    ++count[edge.to];
+  }
+  return count;
+}
 
 std::vector<Claim> claims_of(const std::vector<Tube>& tubes, double distance_max) {
   std::vector<Claim> claims;
   for (const Tube& tube : tubes) {
-    for (const Capsule& capsule : capsules(tube)) {
-      Eigen::AlignedBox3d box(capsule.a);
-      box.extend(capsule.b);
-      box.min().array() -= capsule.radius + distance_max;
-      box.max().array() += capsule.radius + distance_max;
-      claims.push_back({tube.id, capsule, box});
+    const std::vector<int> edges_at = edges_at_nodes(tube);
+    const auto is_flat = [&](std::size_t node) { return tube.flat_ends && edges_at[node] == 1; };
+    for (const Edge& edge : tube.edges) {
+      Claim claim{tube.id,
+                  capsule(tube, edge),
+                  {is_flat(edge.from), is_flat(edge.to)},
+                  distance_max * tube.radius,
+                  {}};
+      claim.box.extend(claim.capsule.a);
+      claim.box.extend(claim.capsule.b);
+      claim.box.min().array() -= tube.radius + claim.distance_max;
+      claim.box.max().array() += tube.radius + claim.distance_max;
+      claims.push_back(claim);
     }
   }
   return claims;
@@ -36,6 +60,25 @@ BoxGrid grid_of(const std::vector<Claim>& claims) {
   return BoxGrid(boxes);
 }
 
+// From a cylinder that is cut flat, at the end that the point is nearer to.
+double distance_from_cut(const Capsule& capsule, const Vector3d& end, const Vector3d& outward,
+                         const Vector3d& point) {
+  const double beyond = (point - end).dot(outward);
+  const double aside = axis_distance(capsule, point - std::max(0.0, beyond) * outward) - capsule.radius;
+  if (beyond >= 0) return std::hypot(beyond, std::max(0.0, aside));
+  return aside >= 0 ? aside : std::min(-aside, -beyond);
+}
+
+double surface_distance_of(const Claim& claim, const Vector3d& point) {
+  const auto& [a, b, radius] = claim.capsule;
+  const bool is_nearer_to_b = nearest_on_axis(claim.capsule, point) > 0.5;
+  if (!claim.is_flat[is_nearer_to_b ? 1 : 0] || a == b)
+    return std::abs(axis_distance(claim.capsule, point) - radius);
+  const Vector3d along = (b - a).normalized();
+  return is_nearer_to_b ? distance_from_cut(claim.capsule, b, along, point)
+                        : distance_from_cut(claim.capsule, a, -along, point);
+}
+
 }  // namespace
 
 std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::vector<std::size_t>& points,
@@ -44,15 +87,15 @@ std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::v
   const BoxGrid grid = grid_of(claims);
   std::vector<std::int32_t> labels(points.size(), null_label);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d point = cloud.points[points[i]].cast<double>();
-    double nearest = settings.distance_max;
-    for (const std::uint32_t claim : grid.around(point)) {
-      const auto& [label, capsule, box] = claims[claim];
-      if (!box.contains(point)) continue;
-      const double distance = std::abs(axis_distance(capsule, point) - capsule.radius);
-      if (distance >= nearest) continue;
+    const Vector3d point = cloud.points[points[i]].cast<double>();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t index : grid.around(point)) {
+      const Claim& claim = claims[index];
+      if (!claim.box.contains(point)) continue;
+      const double distance = surface_distance_of(claim, point);
+      if (distance >= std::min(nearest, claim.distance_max)) continue;
       nearest = distance;
-      labels[i] = label;
+      labels[i] = claim.label;
     }
   }
   return labels;

@@ -5,11 +5,14 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace tanglebin {
 
-RangeImage::RangeImage(const std::vector<Eigen::Vector3f>& points, const Camera& camera)
+RangeImage::RangeImage(const std::vector<Eigen::Vector3f>& points, const Camera& camera,
+                       std::vector<Eigen::AlignedBox3d> solid)
     : camera_(camera),
+      solid_(std::move(solid)),
       depths_(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
               std::numeric_limits<float>::infinity()) {
   for (const Eigen::Vector3f& point : points) {
@@ -48,6 +51,10 @@ bool RangeImage::hides(const Eigen::Vector3d& first, const Eigen::Vector3d& seco
 }
 
 bool RangeImage::shows_empty(const Eigen::Vector3d& axis, double radius) const {
+  const auto is_in = [&](const Eigen::AlignedBox3d& part) {
+    return part.squaredExteriorDistance(axis) < radius * radius / 4;
+  };
+  if (std::ranges::any_of(solid_, is_in)) return true;
   const std::optional<Eigen::Vector2d> image = project(camera_, axis);
   if (!image) return false;
   const double depth = depth_of(camera_, axis);

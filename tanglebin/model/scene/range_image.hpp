@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "tanglebin/geometry/camera.hpp"
@@ -10,15 +10,18 @@ namespace tanglebin {
 /// The range that the camera measured in each pixel, from points that it saw.
 class RangeImage {
 public:
-  /// Points are in m, world frame. Those that are not finite or not in the image are left out.
-  RangeImage(const std::vector<Eigen::Vector3f>& points, const Camera& camera);
+  /// Points are in m, world frame. Those that are not finite or not in the image are left out. `solid` is
+  /// where no tube can be.
+  RangeImage(const std::vector<Eigen::Vector3f>& points, const Camera& camera,
+             std::vector<Eigen::AlignedBox3d> solid = {});
 
   /// True if the camera saw something nearer than the farther of two points (m, world frame) within `radius`
   /// pixels of the midpoint of their projections. False if a point is not in front of the camera.
   bool hides(const Eigen::Vector3d& first, const Eigen::Vector3d& second, int radius) const;
 
   /// True if the camera looked past the axis of a tube of this radius (m) at this point: within a third of a
-  /// radius around it, something was seen, and all of it lies behind the tube's surface.
+  /// radius around it, something was seen, and all of it lies behind the tube's surface. True too if the axis
+  /// is within half a radius of what is solid.
   bool shows_empty(const Eigen::Vector3d& axis, double radius) const;
 
 private:
@@ -26,6 +29,7 @@ private:
   double nearest_in(const Eigen::Vector2d& middle, double reach) const;
 
   Camera camera_;
+  std::vector<Eigen::AlignedBox3d> solid_;
   std::vector<float> depths_;  ///< m, of the nearest point, row by row; ∞ where there is none
 };
 

@@ -11,7 +11,7 @@ struct FilterSettings {
 
 /// Label: assigns the points that no tube was modelled from.
 struct LabelSettings {
-  double distance_max = 0.006;  ///< m, from a point to the surface of its tube
+  double distance_max = 0.48;  ///< radii, from a point to the surface of its tube
 };
 
 }  // namespace tanglebin

@@ -58,7 +58,7 @@ Piece piece_along(const std::vector<Vector3d>& corners, std::size_t first_point,
 TEST(FitTube, MovesTheCentreLineSoThatTheSurfaceIsOnThePoints) {
   const std::vector<Vector3d> corners = {{-0.2, 0, 0.05}, {0, 0.03, 0.05}, {0.2, 0, 0.08}};
   const Piece piece = piece_along(corners, 0, {0, 0, 0.002});
-  const Tube tube = fit_tube({piece.fragment}, {0}, {}, {}, piece.points, radius, {});
+  const Tube tube = fit_tube({piece.fragment}, {0}, {}, {}, piece.points, {.radius = radius}, {});
   EXPECT_EQ(tube.radius, radius);
   const TubesScore score = score_tubes({test::chain(1, radius, corners)}, {tube});
   EXPECT_LT(*score.centre_line_error, 1e-4);
@@ -79,7 +79,8 @@ TEST(FitTube, BridgesAJoin) {
        .to = {1, second.fragment.ends[0].node, 0, second.fragment.ends[0].position},
        .gap = 0.1,
        .features = {}}};
-  const Tube tube = fit_tube({first.fragment, second.fragment}, {0, 1}, links, {0}, points, radius, {});
+  const Tube tube =
+      fit_tube({first.fragment, second.fragment}, {0, 1}, links, {0}, points, {.radius = radius}, {});
   EXPECT_NEAR(total_length(tube), 0.4, 1e-3);
   EXPECT_EQ(tube.nodes.size(), tube.edges.size() + 1);
   for (const Node& node : tube.nodes)
@@ -100,7 +101,7 @@ TEST(FitTube, PutsAHiddenJunctionWhereItsLinkLeads) {
   const FragmentEnd& end = arms[1].ends[0];
   const std::vector<Link> links = {{LinkKind::tree_ends, 0, 0, {1, end.node, 0, end.position}, 0.07, {}},
                                    {LinkKind::junction, 2, 0, {1, end.node, 0, junction}, 0.04, {}}};
-  const Tube tube = fit_tube(arms, {0, 1, 2}, links, {0, 1}, points, radius, {});
+  const Tube tube = fit_tube(arms, {0, 1, 2}, links, {0, 1}, points, {.radius = radius}, {});
   const auto edges_at = [&](std::size_t node) {
     return std::ranges::count_if(tube.edges, [&](const Edge& e) { return e.from == node || e.to == node; });
   };
@@ -116,7 +117,7 @@ TEST(FitTube, DoesNotCountPointsThatAreFarFromTheSurface) {
   const std::vector<Vector3d> corners = {{-0.2, 0, 0.05}, {0.2, 0, 0.05}};
   Piece piece = piece_along(corners, 0, Vector3d::Zero());
   for (std::size_t i = 0; i < piece.points.size(); i += 5) piece.points[i].z() += 0.01F;
-  const Tube tube = fit_tube({piece.fragment}, {0}, {}, {}, piece.points, radius, {});
+  const Tube tube = fit_tube({piece.fragment}, {0}, {}, {}, piece.points, {.radius = radius}, {});
   EXPECT_LT(*score_tubes({test::chain(1, radius, corners)}, {tube}).centre_line_error, 1e-4);
 }
 

@@ -18,7 +18,7 @@ TEST(LabelByNearest, GivesAPointToTheNearestSurface) {
   // Their surfaces are 5 mm apart, from y = 12.5 to 17.5 mm.
   const PointCloud cloud = cloud_of(
       {{0, 0.013F, 0.0125F}, {0, 0.017F, 0.0125F}, {0, 0, 0.026F}, {0, 0, 0.04F}, {0.3F, 0, 0.0125F}});
-  const LabelSettings near{.distance_max = 0.004};
+  const LabelSettings near{.distance_max = 0.32};
   EXPECT_THAT(label_by_nearest(cloud, {0, 1, 2, 3, 4}, tubes, near),
               ElementsAre(1, 2, 1, null_label, null_label));
   EXPECT_THAT(label_by_nearest(cloud, {3, 1}, tubes, near), ElementsAre(null_label, 2));
@@ -35,7 +35,7 @@ TEST(LabelByNearest, AgreesWithALoopOverAllPairs) {
   const std::vector<std::int32_t> labels = label_by_nearest(cloud, points, tubes, settings);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d point = cloud.points[points[i]].cast<double>();
-    double nearest = settings.distance_max;
+    double nearest = settings.distance_max * test::radius;
     std::int32_t label = null_label;
     for (const Tube& tube : tubes) {
       for (const Capsule& capsule : capsules(tube)) {
@@ -49,6 +49,38 @@ TEST(LabelByNearest, AgreesWithALoopOverAllPairs) {
     }
     ASSERT_EQ(labels[i], label) << "point " << points[i];
   }
+}
+
+TEST(LabelByNearest, ReachesFartherAroundAThickTube) {
+  const Tube thin = test::chain(1, 0.004, {{-0.1, 0, 0.004}, {0.1, 0, 0.004}});
+  const Tube thick = test::chain(2, 0.025, {{-0.1, 0.5, 0.025}, {0.1, 0.5, 0.025}});
+  const PointCloud cloud = cloud_of({{0, 0, 0.011F}, {0, 0, 0.009F}, {0, 0.5F, 0.06F}});
+  EXPECT_THAT(label_by_nearest(cloud, {0, 1, 2}, {thin, thick}, {}), ElementsAre(null_label, 1, 2));
+}
+
+// From x = −0.25 to 0.25, with the face at either end.
+TEST(LabelByNearest, DoesNotReachBeyondAFlatEnd) {
+  Tube tube = test::straight_tube(1, 0);
+  const PointCloud cloud = cloud_of({{0.25F, 0.005F, 0.01F},
+                                     {0.255F, 0.005F, 0.01F},
+                                     {0.262F, 0, 0.0125F},
+                                     {-0.262F, 0, 0.0125F},
+                                     {-0.2F, 0, 0.025F},
+                                     {0, 0, 0.0125F}});
+  const std::vector<std::size_t> all = {0, 1, 2, 3, 4, 5};
+  EXPECT_THAT(label_by_nearest(cloud, all, {tube}, {}),
+              ElementsAre(null_label, 1, 1, 1, 1, null_label));
+  tube.flat_ends = true;
+  EXPECT_THAT(label_by_nearest(cloud, all, {tube}, {}),
+              ElementsAre(1, 1, null_label, null_label, 1, null_label));
+}
+
+// Only the outermost nodes of a bent tube are ends.
+TEST(LabelByNearest, TakesTheBendsOfATubeWithFlatEndsAsRound) {
+  Tube tube = test::chain(1, test::radius, {{-0.2, 0, 0}, {0, 0, 0}, {0, 0, -0.2}});
+  tube.flat_ends = true;
+  const float out = 0.7F * static_cast<float>(test::radius);
+  EXPECT_THAT(label_by_nearest(cloud_of({{out, 0, out}}), {0}, {tube}, {}), ElementsAre(1));
 }
 
 TEST(LabelByNearest, WithoutTubesOrPointsIsNullOrNothing) {

@@ -1,0 +1,126 @@
+#include "tanglebin/model/axis/length.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <utility>
+
+#include "tanglebin/model/axis/choose_links.hpp"
+#include "tanglebin/model/axis/links.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+
+// The sensor saw that the chain does not go on.
+bool is_free(const FragmentEnd& end, double radius, const RangeImage& seen) {
+  constexpr std::array<double, 2> beyond = {1.6,
+                                            2.2};  // radii; a round end is one beyond the end of the axis
+  return std::ranges::all_of(beyond, [&](double way) {
+    return seen.shows_empty(end.position + way * radius * end.outward, radius);
+  });
+}
+
+// The lengths of the chains of these fragments that are seen from end to end, ascending. m
+std::vector<double> lengths_of_whole_chains(const std::vector<Fragment>& fragments,
+                                            const std::vector<Link>& links,
+                                            const std::vector<std::size_t>& chosen,
+                                            const std::vector<std::vector<bool>>& free_ends) {
+  std::set<std::pair<std::size_t, std::size_t>> joined;
+  for (const std::size_t i : chosen) {
+    joined.insert({links[i].fragment, links[i].end});
+    joined.insert({links[i].to.fragment, *links[i].to.end});
+  }
+  std::vector<double> gaps(fragments.size());
+  for (const std::size_t i : chosen) gaps[links[i].fragment] += links[i].gap;
+  std::vector<double> lengths;
+  for (const std::vector<std::size_t>& members : linked_fragments(fragments.size(), links, chosen)) {
+    double length = 0;
+    bool is_whole = true;
+    for (const std::size_t member : members) {
+      const Fragment& fragment = fragments[member];
+      length += fragment.length + gaps[member];
+      for (std::size_t end = 0; end < fragment.ends.size(); ++end) {
+        length += (fragment.ends[end].position - fragment.nodes[fragment.ends[end].node]).norm();
+        if (!joined.contains({member, end}) && !free_ends[member][end]) is_whole = false;
+      }
+    }
+    if (is_whole) lengths.push_back(length);
+  }
+  std::ranges::sort(lengths);
+  return lengths;
+}
+
+/// A length, and how many chains have it.
+struct Agreement {
+  double length = 0;  // m
+  std::size_t chains = 0;
+};
+
+// Of ascending lengths, those within a few percent of each other that have the largest sum; their middle.
+Agreement agreement_of(const std::vector<double>& lengths) {
+  constexpr double tolerance = 0.05;
+  Agreement best;
+  double most = 0;
+  for (std::size_t first = 0; first < lengths.size(); ++first) {
+    double sum = 0;
+    std::size_t end = first;
+    while (end < lengths.size() && lengths[end] <= lengths[first] * (1 + tolerance)) sum += lengths[end++];
+    if (sum <= most) continue;
+    most = sum;
+    best = {lengths[(first + end) / 2], end - first};
+  }
+  return best;
+}
+
+// The chains that are seen from end to end are right if the length given is too short for them.
+double longer_of(const TubeKind& kind, double length, const LinkSettings& settings) {
+  return length > length_max(kind, settings) ? length : kind.length();
+}
+
+// A range that is wider than what a length is allowed to be wrong by says as little as none.
+bool has_length(const TubeKind& kind, const LinkSettings& settings) {
+  return kind.length_is_known() &&
+         (kind.length_min == 0 || kind.length_min * (1 + settings.length_tolerance) >= kind.length());
+}
+
+}  // namespace
+
+TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
+                     const LinkSettings& settings) {
+  if (kind.branches() || fragments.empty()) return kind;
+  constexpr std::size_t enough = 3;  // chains that agree
+  std::vector<std::vector<bool>> free_ends;
+  for (const Fragment& fragment : fragments) {
+    free_ends.emplace_back();
+    for (const FragmentEnd& end : fragment.ends) free_ends.back().push_back(is_free(end, kind.radius, seen));
+  }
+  std::vector<double> lengths = lengths_of_whole_chains(fragments, {}, {}, free_ends);
+  Agreement agreement = agreement_of(lengths);
+  if (has_length(kind, settings)) {
+    if (agreement.chains >= enough) kind.segments[0].length = longer_of(kind, agreement.length, settings);
+    return kind;
+  }
+  const double most = kind.length();
+  const double longest = std::ranges::max_element(fragments, {}, &Fragment::length)->length;
+  constexpr double hidden = 1.5;  // of what is seen
+  if (agreement.chains < enough || agreement.length < longest / (1 + settings.length_tolerance)) {
+    // Too few are seen in one piece.
+    kind.segments[0].length = std::min(most, hidden * std::max(longest, agreement.length));
+    const std::vector<Link> links = find_links(fragments, seen, kind, settings);
+    lengths =
+        lengths_of_whole_chains(fragments, links, choose_links(fragments, links, kind, settings), free_ends);
+    agreement = agreement_of(lengths);
+  }
+  if (lengths.empty()) return kind;
+  const bool most_agree = 2 * agreement.chains > lengths.size();
+  const double of_some = std::isfinite(most) ? most : lengths.back();
+  kind.segments[0].length = std::clamp(most_agree ? agreement.length : of_some,
+                                       std::max(longest, kind.length_min), std::max(longest, most));
+  return kind;
+}
+
+}  // namespace tanglebin

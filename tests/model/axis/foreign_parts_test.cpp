@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "tanglebin/geometry/labels.hpp"
+#include "tanglebin/model/model_tubes.hpp"
+#include "tests/model/scene/ray_cast.hpp"
+#include "tests/model/scene/scanned.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::Thing;
+
+constexpr std::int32_t label_of_tube = 1;
+constexpr std::int32_t label_of_others = 2;
+
+KnownScene scene_on(Support::Shape shape) {
+  return {.support = {.shape = shape},
+          .camera = test::near_camera(),
+          .kinds = {{.radius = test::radius, .segments = {{1, 2, 0.3}}, .flat_ends = true}}};
+}
+
+// Each of these is labelled as `label_of_others`.
+std::vector<Thing> foreign_parts() {
+  return {{label_of_others, test::box({-0.15, 0.03, 0}, {-0.05, 0.11, 0.05})},
+          {label_of_others, test::box({0.02, 0.05, 0}, {0.03, 0.12, 0.03})},
+          {label_of_others, test::ball({0.1, 0.06, 0.03}, 0.03)},
+          {label_of_others, test::ball({0.05, -0.11, test::radius}, test::radius)},
+          {label_of_others, test::flat_cylinder({-0.12, -0.09, 0.04}, {0, -0.11, 0.04}, 0.03)}};
+}
+
+std::vector<Thing> a_tube_among_foreign_parts(const test::Surface& floor) {
+  std::vector<Thing> things = foreign_parts();
+  things.push_back({bin_label, floor});
+  things.push_back(
+      {label_of_tube, test::flat_cylinder({-0.15, -0.02, 0.0125}, {0.15, -0.03, 0.0125}, test::radius)});
+  return things;
+}
+
+void expect_only_the_tube(const PointCloud& cloud, const Model& model) {
+  ASSERT_EQ(model.tubes.size(), 1U);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (cloud.labels[i] == label_of_tube) {
+      ASSERT_EQ(model.labels[i], 1) << "at " << cloud.points[i].transpose();
+    } else if (cloud.labels[i] == label_of_others) {
+      ASSERT_EQ(model.labels[i], null_label) << "at " << cloud.points[i].transpose();
+    }
+  }
+}
+
+TEST(ForeignParts, OnATableStayUnexplained) {
+  const PointCloud cloud =
+      test::seen_by(test::near_camera(), a_tube_among_foreign_parts(test::wavy_floor(0, 1)));
+  expect_only_the_tube(cloud, model_tubes(cloud, scene_on(Support::Shape::plane)));
+}
+
+TEST(ForeignParts, StayUnexplainedWhereTheSupportIsNotKnown) {
+  const PointCloud cloud =
+      test::seen_by(test::near_camera(), a_tube_among_foreign_parts(test::wavy_floor(0, 1)));
+  expect_only_the_tube(cloud, model_tubes(cloud, scene_on(Support::Shape::nothing)));
+}
+
+// Waves of 3 mm, like a sagging sheet.
+TEST(ForeignParts, StayUnexplainedOnAFloorThatIsNotFlat) {
+  const PointCloud cloud =
+      test::seen_by(test::near_camera(), a_tube_among_foreign_parts(test::wavy_floor(0.003, 0.15)));
+  expect_only_the_tube(cloud, model_tubes(cloud, scene_on(Support::Shape::plane)));
+  expect_only_the_tube(cloud, model_tubes(cloud, scene_on(Support::Shape::nothing)));
+}
+
+}  // namespace
+}  // namespace tanglebin
