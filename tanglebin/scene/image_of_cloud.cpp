@@ -93,10 +93,13 @@ std::optional<FittedIntrinsics> fit_intrinsics(const PointCloud& cloud, const Ei
                           .residual = std::sqrt(across.mean_square() + down.mean_square())};
 }
 
-bool fits(const FittedIntrinsics& fitted) {
-  const auto& [width, height, fx, fy, cx, cy] = fitted.intrinsics;
+bool is_image(const FittedIntrinsics& fitted) {
   constexpr double share = 0.005;
-  return fx > 0 && fy > 0 && fitted.residual <= share * std::hypot(width, height);
+  return fitted.residual <= share * std::hypot(fitted.intrinsics.width, fitted.intrinsics.height);
+}
+
+bool fits(const FittedIntrinsics& fitted) {
+  return is_image(fitted) && fitted.intrinsics.fx > 0 && fitted.intrinsics.fy > 0;
 }
 
 double share_in_image(const PointCloud& cloud, const Eigen::Affine3d& motion, const Intrinsics& intrinsics) {

@@ -25,8 +25,11 @@ struct FittedIntrinsics {
 /// part of the image.
 std::optional<FittedIntrinsics> fit_intrinsics(const PointCloud& cloud, const Eigen::Isometry3d& motion);
 
-/// Whether an organized cloud is the camera's image: square right way up, and points within half a percent of
-/// the image's diagonal of their pixels, as an image with some distortion has them.
+/// Whether an organized cloud is a pinhole camera's image: its points are within half a percent of the
+/// image's diagonal of their pixels, as those of an image with some distortion are.
+bool is_image(const FittedIntrinsics& fitted);
+
+/// Whether it is the image the right way up, with x to the right and y down.
 bool fits(const FittedIntrinsics& fitted);
 
 /// The share of the cloud's finite points, in [0, 1], that are in front of the camera and in its image.

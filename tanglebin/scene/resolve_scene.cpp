@@ -167,7 +167,7 @@ private:
     if (camera_.intrinsics)
       return fmt::format("{} of the points are in the camera's image", percent(candidate.share));
     if (!candidate.fitted) return "too few points are in front of the camera";
-    if (candidate.fitted->intrinsics.fx <= 0 || candidate.fitted->intrinsics.fy <= 0)
+    if (is_image(*candidate.fitted) && !fits(*candidate.fitted))
       return "the image is upside down or mirrored: x should point right and y down";
     return fmt::format("the points are {:.2g} pixels from a pinhole camera's", candidate.fitted->residual);
   }
