@@ -29,6 +29,7 @@ tanglebin_room(cloud        TARGET core        ROOMS base geometry)
 tanglebin_room(io           TARGET core        ROOMS base geometry cloud)
 
 tanglebin_room(model/scene  TARGET axis        ROOMS base geometry cloud)
+tanglebin_room(model/locate TARGET axis        ROOMS base geometry cloud)
 tanglebin_room(model/axis   TARGET axis        ROOMS base geometry cloud model/scene)
 tanglebin_room(model/paper  TARGET paper       ROOMS base geometry cloud model/scene)
 tanglebin_room(model        TARGET modelling   ROOMS base cloud model/scene model/axis model/paper)
