@@ -228,7 +228,8 @@ void locate_scenes(benchmark::State& state, const Scenes& scenes, int count) {
         }
       } catch (const InputError& error) {
         ++refused;
-        fmt::print("{}: {}\n", number, error.what());
+        fmt::print("{}: bin {} x {} x {} x {} m: {}\n", number, given.support.bin.length, given.support.bin.width,
+                   given.support.bin.height, given.support.bin.wall, error.what());
       }
     }
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -125,15 +126,14 @@ std::optional<Observation> observation_of_point(const State& state, const Vector
   return nearest;
 }
 
-// An edge of a wall's rim: the inner or the outer one.
+// An edge (in the bin's frame) of a wall's rim: the inner or the outer one.
 std::optional<Observation> observation_of_edge(const State& state, const RimEdge& edge, std::size_t wall,
                                                bool is_inner, const Gates& gates) {
   constexpr double least_alignment = 0.6;
-  const Isometry3d from_camera = state.pose.inverse(Eigen::Isometry);
-  const Vector3d place = from_camera * edge.point;
+  const Vector3d& place = edge.point;
   const int axis = axis_of_wall(wall);
   const Vector3d outwards = (is_inner ? -1 : 1) * side_of_wall(wall) * Vector3d::Unit(axis);  // of the rim
-  if (outwards.dot(from_camera.linear() * edge.outwards) < least_alignment) return std::nullopt;
+  if (outwards.dot(edge.outwards) < least_alignment) return std::nullopt;
   const double half = half_size(state.bin, axis);
   const double end = is_inner ? -half : half + state.bin.wall;
   const double along = std::abs(place[1 - axis]) - half_size(state.bin, 1 - axis);
@@ -161,7 +161,8 @@ std::vector<Observation> observe(const State& state, const std::vector<Vector3d>
     const auto observation = observation_of_point(state, from_camera * point, visible, gates, is_final);
     if (observation) observations.push_back(*observation);
   }
-  for (const RimEdge& edge : edges) {
+  for (const RimEdge& seen : edges) {
+    const RimEdge edge{from_camera * seen.point, from_camera.linear() * seen.outwards};
     for (std::size_t wall = 0; wall < 4; ++wall) {
       for (const bool is_inner : {true, false}) {
         const auto observation = observation_of_edge(state, edge, wall, is_inner, gates);
@@ -171,6 +172,8 @@ std::vector<Observation> observe(const State& state, const std::vector<Vector3d>
   }
   return observations;
 }
+
+constexpr double deviation_of_median = 1.4826;  // standard deviation over median distance, of normal errors
 
 using Spreads = std::array<double, kinds>;  // m, robust standard deviations, NaN for none
 
@@ -182,7 +185,6 @@ std::array<std::vector<double>, kinds> distances_by_kind(const std::vector<Obser
 }
 
 Spreads spreads_of(const std::vector<Observation>& observations) {
-  constexpr double deviation_of_median = 1.4826;
   constexpr double smallest = 0.0001;
   Spreads spreads{};
   auto distances = distances_by_kind(observations);
@@ -217,18 +219,15 @@ std::map<std::array<long, 4>, Block> blocks_of(const std::vector<Observation>& o
   return blocks;
 }
 
-// RMS of the blocks' mean residuals, m.
+// Robust standard deviation of the blocks' mean residuals, m.
 double shared_error(const std::vector<Observation>& observations) {
   constexpr double enough = 20;
   constexpr double smallest = 0.0001;
-  double squares = 0;
-  int count = 0;
+  std::vector<double> means;
   for (const auto& [place, block] : blocks_of(observations)) {
-    if (block.weight < enough) continue;
-    squares += block.sum / block.weight * block.sum / block.weight;
-    ++count;
+    if (block.weight > enough) means.push_back(std::abs(block.sum / block.weight));
   }
-  return count == 0 ? smallest : std::max(std::sqrt(squares / count), smallest);
+  return means.empty() ? smallest : std::max(deviation_of_median * median(std::move(means)), smallest);
 }
 
 // Gives each observation a variance, with what its block shares, and takes trust from outliers (Tukey's
@@ -394,10 +393,22 @@ void describe(const std::vector<Observation>& observations, BinFit& fit) {
   if (weight > 0) fit.residual = std::sqrt(squares / weight);
 }
 
-// An error along the line of sight that all points share moves the bin and leaves no residual.
-void add_error_of_sight(BinFit& fit, double shared) {
-  const Vector3d sight = fit.pose.linear().transpose() * fit.pose.translation().normalized();
-  fit.covariance.topLeftCorner<3, 3>() += shared * shared * sight * sight.transpose();
+// The scanner's own error varies smoothly over the image: it moves and tilts all that is seen, and leaves no
+// residual.
+void add_error_of_calibration(BinFit& fit) {
+  constexpr double share_of_distance = 1.5e-4;
+  const double distance = fit.pose.translation().norm();
+  const double error = share_of_distance * distance;
+  const double tilt = std::numbers::sqrt2 * error / std::sqrt(fit.sizes.length * fit.sizes.width);
+  const Vector3d sight = fit.pose.linear().transpose() * fit.pose.translation() / distance;
+  const Vector3d middle(0, 0, fit.sizes.height);  // of the rim
+  const Vector3d first = sight.unitOrthogonal();
+  fit.covariance.topLeftCorner<3, 3>() += error * error * sight * sight.transpose();
+  for (const Vector3d& axis : {first, Vector3d(sight.cross(first))}) {
+    Eigen::Matrix<double, 6, 1> motion;
+    motion << middle.cross(axis), axis;
+    fit.covariance += tilt * tilt * motion * motion.transpose();
+  }
 }
 
 }  // namespace
@@ -432,7 +443,7 @@ BinFit fit_bin(const View& view, const BinToFit& known, const Isometry3d& pose) 
   BinFit fit{.pose = state.pose, .sizes = state.bin};
   describe(observations, fit);
   fit.covariance = information.inverse().topLeftCorner<6, 6>();
-  add_error_of_sight(fit, shared);
+  add_error_of_calibration(fit);
   return fit;
 }
 

@@ -1,8 +1,6 @@
 #include "tanglebin/model/locate/bin_parts.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "tanglebin/geometry/intersect.hpp"
 
@@ -34,6 +32,14 @@ std::size_t part_at(const Bin& bin, std::size_t box, const Vector3d& point, cons
 Ray ray_of(const View& view, std::size_t pixel) {
   const auto width = static_cast<std::size_t>(view.camera.width);
   return ray_through(view.camera, static_cast<double>(pixel % width), static_cast<double>(pixel / width));
+}
+
+// Of a point that was measured along a ray, NaN for none.
+Verdict verdict_of(const PartHit& hit, const Vector3d& point, const Ray& ray, double closeness) {
+  if (!point.allFinite()) return Verdict::none;
+  const double behind = (point.dot(ray.direction) - hit.distance) * hit.cosine;
+  if (behind > closeness) return Verdict::contradicted;
+  return behind < -closeness ? Verdict::hidden : Verdict::explained;
 }
 
 }  // namespace
@@ -92,35 +98,46 @@ std::optional<PartHit> first_hit(const std::array<AlignedBox3d, 5>& boxes, const
                  .cosine = -nearest->normal.dot(ray.direction)};
 }
 
-Agreement agreement(const View& view, const std::vector<std::size_t>& pixels, const Bin& bin,
-                    const Isometry3d& pose, double closeness) {
+std::vector<PixelVerdict> verdicts(const View& view, const std::vector<std::size_t>& pixels, const Bin& bin,
+                                   const Isometry3d& pose, double closeness) {
   const Isometry3d from_camera = pose.inverse(Eigen::Isometry);
   const std::array<AlignedBox3d, 5> parts = boxes(bin);
-  Agreement agreement;
+  std::vector<PixelVerdict> verdicts;
+  verdicts.reserve(pixels.size());
   for (const std::size_t pixel : pixels) {
     const Ray seen = ray_of(view, pixel);
     const Ray ray{from_camera.translation(), from_camera.linear() * seen.direction};
     const std::optional<PartHit> hit = first_hit(parts, bin, ray);
-    if (!hit) continue;
-    ++agreement.expected.at(hit->part);
-    const Eigen::Vector3f point = view.points[pixel];
-    if (!point.allFinite()) continue;
-    const double behind = (point.cast<double>().dot(seen.direction) - hit->distance) * hit->cosine;
-    if (behind > closeness) {
-      ++agreement.contradicted.at(hit->part);
-    } else if (behind < -closeness) {
-      ++agreement.hidden.at(hit->part);
-    } else {
-      ++agreement.explained.at(hit->part);
+    if (!hit) {
+      verdicts.push_back({std::nullopt, Verdict::none});
+      continue;
     }
+    verdicts.push_back({hit->part, verdict_of(*hit, view.points[pixel].cast<double>(), seen, closeness)});
+  }
+  return verdicts;
+}
+
+Agreement agreement_of(const std::vector<PixelVerdict>& verdicts) {
+  Agreement agreement;
+  for (const auto& [part, verdict] : verdicts) {
+    if (!part) continue;
+    ++agreement.expected.at(*part);
+    if (verdict == Verdict::explained) ++agreement.explained.at(*part);
+    if (verdict == Verdict::hidden) ++agreement.hidden.at(*part);
+    if (verdict == Verdict::contradicted) ++agreement.contradicted.at(*part);
   }
   return agreement;
 }
 
-int score_of(const Agreement& agreement) {
-  const int explained = std::accumulate(agreement.explained.begin(), agreement.explained.end(), 0);
-  const int contradicted = std::accumulate(agreement.contradicted.begin(), agreement.contradicted.end(), 0);
-  return explained - 2 * contradicted;
+int value_of(Verdict verdict) {
+  if (verdict == Verdict::explained) return 1;
+  return verdict == Verdict::contradicted ? -2 : 0;
+}
+
+int score_of(const std::vector<PixelVerdict>& verdicts) {
+  int score = 0;
+  for (const PixelVerdict& pixel : verdicts) score += value_of(pixel.verdict);
+  return score;
 }
 
 }  // namespace tanglebin

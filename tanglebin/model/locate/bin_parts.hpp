@@ -49,19 +49,35 @@ struct PartHit {
 std::optional<PartHit> first_hit(const std::array<Eigen::AlignedBox3d, 5>& boxes, const Bin& bin,
                                  const Ray& ray);
 
-/// How many pixels agree with a bin, by the part that each should show.
-struct Agreement {
-  std::array<int, part_count> expected{};      ///< pixels in which this part is the first surface of the bin
-  std::array<int, part_count> explained{};     ///< it is measured there
-  std::array<int, part_count> hidden{};        ///< something nearer is
-  std::array<int, part_count> contradicted{};  ///< something farther is, which it would hide
+/// What a pixel says of a bin.
+enum class Verdict {
+  none,          ///< its ray misses the bin, or nothing was measured
+  explained,     ///< the surface of the bin is measured there
+  hidden,        ///< something nearer is
+  contradicted,  ///< something farther is, which the bin would hide
+};
+
+/// The part that a pixel should show, if any, and what it says.
+struct PixelVerdict {
+  std::optional<std::size_t> part;
+  Verdict verdict;
 };
 
 /// Of pixels: `pose` takes the bin's frame to the camera's. Closeness is across the surface, m.
-Agreement agreement(const View& view, const std::vector<std::size_t>& pixels, const Bin& bin,
-                    const Eigen::Isometry3d& pose, double closeness);
+std::vector<PixelVerdict> verdicts(const View& view, const std::vector<std::size_t>& pixels, const Bin& bin,
+                                   const Eigen::Isometry3d& pose, double closeness);
 
-/// Pixels explained minus twice those contradicted.
-int score_of(const Agreement& agreement);
+/// How many pixels say what, by the part that each should show; `expected` are all of a part.
+struct Agreement {
+  std::array<int, part_count> expected{};
+  std::array<int, part_count> explained{};
+  std::array<int, part_count> hidden{};
+  std::array<int, part_count> contradicted{};
+};
+Agreement agreement_of(const std::vector<PixelVerdict>& verdicts);
+
+/// 1 for a pixel that is explained, −2 for one that contradicts, else 0. score_of() is the sum.
+int value_of(Verdict verdict);
+int score_of(const std::vector<PixelVerdict>& verdicts);
 
 }  // namespace tanglebin

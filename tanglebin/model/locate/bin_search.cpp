@@ -232,7 +232,7 @@ std::vector<Isometry3d> possible_poses(const View& view, const std::vector<Patch
       const Isometry3d frame = level_frame(plane.normal, height, middle);
       const Plan plan = plan_of(view, pixels, patches, frame, bin, closeness);
       for (const Placed& placed : places_on(plan, bin))
-        scored.push_back({placed.pose, score_of(agreement(view, tested, bin, placed.pose, 2 * closeness))});
+        scored.push_back({placed.pose, score_of(verdicts(view, tested, bin, placed.pose, 2 * closeness))});
     }
   }
   std::ranges::sort(scored, [](const Scored& a, const Scored& b) { return a.score > b.score; });

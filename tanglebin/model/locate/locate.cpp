@@ -47,10 +47,10 @@ std::vector<std::size_t> pixels_of_image(const View& view) {
   return pixels;
 }
 
-/// A pose of the bin, and how the view agrees with it.
+/// A pose of the bin, and what the view says of it.
 struct Candidate {
   Isometry3d pose;  // bin frame → camera frame
-  Agreement agreement;
+  std::vector<PixelVerdict> verdicts;
   int score;
 };
 
@@ -61,10 +61,10 @@ double closeness_of(const BinToFit& known) {
 }
 
 Candidate candidate_at(const Task& task, const Isometry3d& pose) {
-  Candidate candidate{pose, agreement(task.view, task.pixels, task.known.bin, pose, closeness_of(task.known)),
-                      0};
-  candidate.score = score_of(candidate.agreement);
-  return candidate;
+  std::vector<PixelVerdict> said =
+      verdicts(task.view, task.pixels, task.known.bin, pose, closeness_of(task.known));
+  const int score = score_of(said);
+  return {pose, std::move(said), score};
 }
 
 // By what one pose of a bin differs from another, up to the turns that leave the bin as it is.
@@ -112,14 +112,22 @@ std::vector<Candidate> candidates_of(const Task& task, const std::vector<Isometr
   return candidates;
 }
 
-void expect_no_rival(const Bin& bin, const std::vector<Candidate>& candidates) {
-  constexpr double as_good = 0.95;
+// By how much the first is better where it is better.
+int advantage(const Candidate& first, const Candidate& second) {
+  int sum = 0;
+  for (std::size_t i = 0; i < first.verdicts.size(); ++i)
+    sum += std::max(0, value_of(first.verdicts[i].verdict) - value_of(second.verdicts[i].verdict));
+  return sum;
+}
+
+void expect_no_rival(const Bin& bin, const Candidate& best, const std::vector<Candidate>& others) {
+  constexpr double as_good = 0.6;
   constexpr double apart = 0.01;  // m
   constexpr double turned = 2 * degree;
-  for (const Candidate& rival : candidates) {
-    if (rival.score < as_good * candidates.front().score) continue;
-    const auto [distance, angle] = difference(bin, candidates.front().pose, rival.pose);
+  for (const Candidate& rival : others) {
+    const auto [distance, angle] = difference(bin, best.pose, rival.pose);
     if (distance < apart && angle < turned) continue;
+    if (advantage(rival, best) < as_good * advantage(best, rival)) continue;
     refuse(fmt::format("two poses fit equally well; one is {:.0f} mm and {:.0f}° from the other",
                        1e3 * distance, angle / degree));
   }
@@ -330,11 +338,12 @@ Located locate_bin(const View& view, const Support& support, const Camera& camer
   if (poses.empty()) refuse("no plane that faces the camera is seen");
   const std::vector<Candidate> candidates = candidates_of(task, poses);
   const BinFit fit = fit_bin(view, task.known, candidates.front().pose);
-  const Agreement agreement = candidate_at(task, fit.pose).agreement;
+  const Candidate best = candidate_at(task, fit.pose);
+  const Agreement agreement = agreement_of(best.verdicts);
   expect_sizes(support.bin, support.margin, fit.sizes);
   expect_agreement(agreement, support.bin);
   expect_determined(support.bin, fit);
-  expect_no_rival(support.bin, candidates);
+  expect_no_rival(support.bin, best, candidates);
   return located_bin(support, camera, fit, agreement);
 }
 

@@ -82,7 +82,7 @@ void add_patch(const View& view, int left, int top, int size, std::vector<Patch>
   if (variances[0] > flatness * variances[1]) return;
   const Vector3d centre = moments.mean() + about.cast<double>();
   const Vector3d normal = towards_camera(solver.eigenvectors().col(0), centre);
-  constexpr double most_grazing = 0.02;
+  constexpr double most_grazing = 0.3;  // cosine; flying pixels at edges look like large steep walls
   const double cosine = std::max(-normal.dot(centre.normalized()), most_grazing);
   const double pixel = view.pixel_size(centre.z());
   patches.push_back({.centre = centre,
@@ -176,9 +176,9 @@ std::vector<Patch> patches_of(const View& view) {
 }
 
 std::vector<FlatPlane> planes_of(const std::vector<Patch>& patches) {
-  constexpr std::size_t most = 8;
+  constexpr std::size_t most = 12;
   constexpr std::size_t patches_min = 10;
-  constexpr double smallest = 0.01;  // share of the area
+  constexpr double smallest = 0.005;  // share of the area
   constexpr std::uint64_t seed = 18;
   Rng rng(seed);
   double area = 0;

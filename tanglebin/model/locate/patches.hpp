@@ -27,8 +27,8 @@ struct FlatPlane {
   double noise;            ///< m, median of its patches' noise
 };
 
-/// The planes that the patches lie on, from the largest to the smallest: at most eight, each with at least
-/// 1 % of the area. Deterministic.
+/// The planes that the patches lie on, from the largest to the smallest: at most twelve, each with at
+/// least 0.5 % of the area. Deterministic.
 std::vector<FlatPlane> planes_of(const std::vector<Patch>& patches);
 
 }  // namespace tanglebin

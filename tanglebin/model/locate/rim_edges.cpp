@@ -14,8 +14,9 @@ using Eigen::Vector3f;
 
 /// What a pixel shows.
 enum class Shown : std::uint8_t {
-  nothing,  ///< or something below the rim's plane, or not near the rim
+  nothing,  ///< or something far below the rim's plane, or not near the rim
   rim,
+  below,  ///< something just below the rim's plane, such as the side of a wall
   above,  ///< something above the rim's plane, which may hide more of the rim
 };
 
@@ -23,11 +24,16 @@ enum class Shown : std::uint8_t {
 class RimMap {
 public:
   RimMap(const View& view, const Bin& bin, const Isometry3d& from_camera, double closeness, double reach)
-      : width_(view.camera.width), height_(view.camera.height), shown_(view.points.size(), Shown::nothing) {
+      : bin_(bin),
+        closeness_(closeness),
+        reach_(reach),
+        width_(view.camera.width),
+        height_(view.camera.height),
+        shown_(view.points.size(), Shown::nothing) {
     const Eigen::Affine3f moved = from_camera.cast<float>();
     for (const std::size_t pixel : view.seen) {
       const Vector3f point = moved * view.points[pixel];
-      shown_[pixel] = shown_at(point.cast<double>(), bin, closeness, reach);
+      shown_[pixel] = shown_at(point.cast<double>(), view.pixel_size(view.points[pixel].z()));
     }
   }
 
@@ -37,23 +43,30 @@ public:
                   static_cast<std::size_t>(column)];
   }
 
-  // The rim goes on to this pixel along (dx, dy), ends there, and nothing hides more of it.
+  // The rim goes on to this pixel along (dx, dy) and ends there at a step down. Where it goes over into the
+  // side of a wall, or something hides more of it, it is not clear where it ends.
   bool ends_at(int column, int row, int dx, int dy) const {
     return at(column, row) == Shown::rim && at(column - dx, row - dy) == Shown::rim &&
            at(column + dx, row + dy) == Shown::nothing && at(column + 2 * dx, row + 2 * dy) == Shown::nothing;
   }
 
 private:
-  static Shown shown_at(const Vector3d& point, const Bin& bin, double closeness, double reach) {
-    const double across_x = std::abs(point.x()) - bin.length / 2;
-    const double across_y = std::abs(point.y()) - bin.width / 2;
-    const double farthest = bin.wall + reach;
-    if (across_x > farthest || across_y > farthest || (across_x < -reach && across_y < -reach))
+  Shown shown_at(const Vector3d& point, double pixel) const {
+    constexpr double step = 4;  // pixels
+    const double across_x = std::abs(point.x()) - bin_.length / 2;
+    const double across_y = std::abs(point.y()) - bin_.width / 2;
+    const double farthest = bin_.wall + reach_;
+    if (across_x > farthest || across_y > farthest || (across_x < -reach_ && across_y < -reach_))
       return Shown::nothing;
-    if (point.z() > bin.height + closeness) return Shown::above;
-    return point.z() > bin.height - closeness ? Shown::rim : Shown::nothing;
+    const double height = point.z() - bin_.height;
+    if (height > closeness_) return Shown::above;
+    if (height > -closeness_) return Shown::rim;
+    return height > -closeness_ - step * pixel ? Shown::below : Shown::nothing;
   }
 
+  Bin bin_;
+  double closeness_;
+  double reach_;
   int width_;
   int height_;
   std::vector<Shown> shown_;

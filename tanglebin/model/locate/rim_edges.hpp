@@ -9,7 +9,8 @@
 // Internal to the room.
 namespace tanglebin {
 
-/// A pixel at which the top of the rim ends: beyond it, the camera saw something lower, or nothing.
+/// A pixel at which the top of the rim ends at a step: beyond it, the camera saw something much lower, or
+/// nothing.
 struct RimEdge {
   Eigen::Vector3d point;     ///< m, camera frame: where the pixel's ray meets the plane of the rim
   Eigen::Vector3d outwards;  ///< unit, in that plane: the direction of the image in which the rim ends
