@@ -105,10 +105,10 @@ void add_table(PointCloud& cloud, const Recipe& recipe, const std::vector<Tube>&
   }
 }
 
-// Walls that lean outwards by 3 mm from the floor to the rim, and bulge by 2 mm in their middle.
+// Walls that lean outwards by 2 mm from the floor to the rim, and bulge by 2 mm in their middle.
 void lean(PointCloud& cloud, const Bin& bin) {
   constexpr double near = 0.004;
-  constexpr double most = 0.003;
+  constexpr double most = 0.002;
   constexpr double bulge = 0.002;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (cloud.labels[i] != bin_label) continue;
@@ -149,8 +149,8 @@ Given scene_of(const Scenes& scenes, int number) {
   Given given;
   given.support.bin = recipe.bin;
   if (scenes.not_a_box) {
-    given.support.margin = 0.003;
-    recipe.bin.length += 0.003;
+    given.support.margin = 0.005;
+    recipe.bin.length += 0.002;
     recipe.bin.width -= 0.002;
     recipe.bin.height += 0.002;
   }

@@ -19,7 +19,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 // The unknowns: translation (m) and rotation (rad) in the bin's frame, the bin's four sizes (m), and by how
-// much the seen rim ends before its true edge (m).
+// much the seen rim ends before its true edge (pixels).
 constexpr int unknowns = 11;
 constexpr int of_length = 6;
 constexpr int of_width = 7;
@@ -34,11 +34,13 @@ constexpr std::size_t inner_edges = part_count;
 constexpr std::size_t outer_edges = part_count + 4;
 constexpr std::size_t kinds = part_count + 8;
 
+constexpr double likely_gap = 0.6;  // pixels: half of one, and mixed pixels at the edge
+
 /// A bin that is being fitted.
 struct State {
   Isometry3d pose;  // bin frame → camera frame
   Bin bin;
-  double gap;  // m
+  double gap;  // pixels
 };
 
 /// A distance that should be zero.
@@ -133,19 +135,20 @@ std::optional<Observation> observation_of_edge(const State& state, const RimEdge
   const Vector3d& place = edge.point;
   const int axis = axis_of_wall(wall);
   const Vector3d outwards = (is_inner ? -1 : 1) * side_of_wall(wall) * Vector3d::Unit(axis);  // of the rim
-  if (outwards.dot(edge.outwards) < least_alignment) return std::nullopt;
+  const double step = outwards.dot(edge.step);
+  if (step < least_alignment * edge.step.norm()) return std::nullopt;
   const double half = half_size(state.bin, axis);
   const double end = is_inner ? -half : half + state.bin.wall;
   const double along = std::abs(place[1 - axis]) - half_size(state.bin, 1 - axis);
   if (along > (is_inner ? 0.0 : state.bin.wall)) return std::nullopt;
   Observation observation{.kind = (is_inner ? inner_edges : outer_edges) + wall,
                           .place = place,
-                          .residual = end - outwards.dot(place) - state.gap,
+                          .residual = end - outwards.dot(place) - state.gap * step,
                           .gradient = -gradient_of(outwards, place)};
   if (std::abs(observation.residual) > gates.at(observation.kind)) return std::nullopt;
   observation.gradient[unknown_of_half(axis)] = is_inner ? -0.5 : 0.5;
   observation.gradient[of_wall] = is_inner ? 0 : 1;
-  observation.gradient[of_gap] = -1;
+  observation.gradient[of_gap] = -step;
   return observation;
 }
 
@@ -162,7 +165,7 @@ std::vector<Observation> observe(const State& state, const std::vector<Vector3d>
     if (observation) observations.push_back(*observation);
   }
   for (const RimEdge& seen : edges) {
-    const RimEdge edge{from_camera * seen.point, from_camera.linear() * seen.outwards};
+    const RimEdge edge{from_camera * seen.point, from_camera.linear() * seen.step};
     for (std::size_t wall = 0; wall < 4; ++wall) {
       for (const bool is_inner : {true, false}) {
         const auto observation = observation_of_edge(state, edge, wall, is_inner, gates);
@@ -254,7 +257,7 @@ struct Normal {
 // What is known without looking: sizes and gap.
 void add_prior(Normal& normal, const State& state, const BinToFit& known, double pixel) {
   constexpr double tolerance = 0.001;
-  constexpr double likely_gap = 0.6;  // pixels
+  constexpr double gap_spread = 0.4;
   const auto add = [&](int unknown, double deviation, double spread) {
     normal.information(unknown, unknown) += 1 / (spread * spread);
     normal.gradient[unknown] += deviation / (spread * spread);
@@ -264,7 +267,7 @@ void add_prior(Normal& normal, const State& state, const BinToFit& known, double
   add(of_width, state.bin.width - known.bin.width, spread);
   add(of_height, state.bin.height - known.bin.height, spread);
   add(of_wall, state.bin.wall - known.bin.wall, spread);
-  add(of_gap, state.gap - likely_gap * pixel, pixel + known.margin / 2);
+  add(of_gap, state.gap - likely_gap, gap_spread + known.margin / 2 / pixel);
 }
 
 Normal normal_equations(const std::vector<Observation>& observations) {
@@ -352,10 +355,8 @@ Gates narrowed(const std::vector<Observation>& observations, double margin) {
   return gates;
 }
 
-State start(const View& view, const BinToFit& known, const Isometry3d& pose) {
-  State state{.pose = pose, .bin = known.bin, .gap = 0};
-  state.gap = pixel_at(view, state) / 2;
-  return state;
+State start(const BinToFit& known, const Isometry3d& pose) {
+  return {.pose = pose, .bin = known.bin, .gap = likely_gap};
 }
 
 // Steps with gates that close.
@@ -415,7 +416,7 @@ void add_error_of_calibration(BinFit& fit) {
 
 Isometry3d moved_near(const View& view, const BinToFit& known, const Isometry3d& pose) {
   constexpr std::size_t points = 6000;
-  State state = start(view, known, pose);
+  State state = start(known, pose);
   approach(view, known, state, points_near(view, state, points), edges_near(view, known, state));
   return state.pose;
 }
@@ -424,7 +425,7 @@ BinFit fit_bin(const View& view, const BinToFit& known, const Isometry3d& pose) 
   constexpr std::size_t points_max = 60000;
   constexpr int rounds = 8;
   constexpr int rounds_with_same_edges = 4;
-  State state = start(view, known, pose);
+  State state = start(known, pose);
   const std::vector<Vector3d> points = points_near(view, state, points_max);
   std::vector<RimEdge> edges = edges_near(view, known, state);
   approach(view, known, state, points, edges);

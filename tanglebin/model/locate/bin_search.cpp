@@ -213,6 +213,17 @@ bool are_near(const Isometry3d& first, const Isometry3d& second) {
   return between.translation().norm() < distance && std::min(turn, std::numbers::pi - turn) < angle;
 }
 
+// The best ones, without those that are near a better one.
+std::vector<Scored> apart(std::vector<Scored> all, std::size_t most) {
+  std::ranges::stable_sort(all, [](const Scored& a, const Scored& b) { return a.score > b.score; });
+  std::vector<Scored> best;
+  for (const Scored& candidate : all) {
+    const auto is_near = [&](const Scored& better) { return are_near(better.pose, candidate.pose); };
+    if (best.size() < most && std::ranges::none_of(best, is_near)) best.push_back(candidate);
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<Isometry3d> possible_poses(const View& view, const std::vector<Patch>& patches,
@@ -220,7 +231,8 @@ std::vector<Isometry3d> possible_poses(const View& view, const std::vector<Patch
                                        double closeness) {
   constexpr std::size_t points_of_plan = 8000;
   constexpr std::size_t rays = 3000;
-  constexpr std::size_t kept = 10;
+  constexpr std::size_t kept_on_plane = 3;
+  constexpr std::size_t kept = 12;
   const double most_oblique = std::cos(75 * degree);
   const std::vector<std::size_t> pixels = view.sample(points_of_plan);
   const std::vector<std::size_t> tested = view.sample(rays);
@@ -231,16 +243,15 @@ std::vector<Isometry3d> possible_poses(const View& view, const std::vector<Patch
     for (const double height : {plane.offset, plane.offset - bin.height}) {
       const Isometry3d frame = level_frame(plane.normal, height, middle);
       const Plan plan = plan_of(view, pixels, patches, frame, bin, closeness);
+      std::vector<Scored> on_plane;
       for (const Placed& placed : places_on(plan, bin))
-        scored.push_back({placed.pose, score_of(verdicts(view, tested, bin, placed.pose, 2 * closeness))});
+        on_plane.push_back({placed.pose, score_of(verdicts(view, tested, bin, placed.pose, 2 * closeness))});
+      // A table has many places for a floor, which must not crowd out the rim's.
+      for (const Scored& one : apart(std::move(on_plane), kept_on_plane)) scored.push_back(one);
     }
   }
-  std::ranges::sort(scored, [](const Scored& a, const Scored& b) { return a.score > b.score; });
   std::vector<Isometry3d> poses;
-  for (const Scored& candidate : scored) {
-    const auto is_near = [&](const Isometry3d& pose) { return are_near(pose, candidate.pose); };
-    if (poses.size() < kept && std::ranges::none_of(poses, is_near)) poses.push_back(candidate.pose);
-  }
+  for (const Scored& one : apart(std::move(scored), kept)) poses.push_back(one.pose);
   return poses;
 }
 

@@ -112,27 +112,6 @@ std::vector<Candidate> candidates_of(const Task& task, const std::vector<Isometr
   return candidates;
 }
 
-// By how much the first is better where it is better.
-int advantage(const Candidate& first, const Candidate& second) {
-  int sum = 0;
-  for (std::size_t i = 0; i < first.verdicts.size(); ++i)
-    sum += std::max(0, value_of(first.verdicts[i].verdict) - value_of(second.verdicts[i].verdict));
-  return sum;
-}
-
-void expect_no_rival(const Bin& bin, const Candidate& best, const std::vector<Candidate>& others) {
-  constexpr double as_good = 0.6;
-  constexpr double apart = 0.01;  // m
-  constexpr double turned = 2 * degree;
-  for (const Candidate& rival : others) {
-    const auto [distance, angle] = difference(bin, best.pose, rival.pose);
-    if (distance < apart && angle < turned) continue;
-    if (advantage(rival, best) < as_good * advantage(best, rival)) continue;
-    refuse(fmt::format("two poses fit equally well; one is {:.0f} mm and {:.0f}° from the other",
-                       1e3 * distance, angle / degree));
-  }
-}
-
 int total(const std::array<int, part_count>& counts) {
   return std::accumulate(counts.begin(), counts.end(), 0);
 }
@@ -187,22 +166,27 @@ std::string walls_seen(const Agreement& agreement) {
   return fmt::format("{} of 4 walls are seen", seen);
 }
 
-void expect_walls(const Agreement& agreement) {
+using Fault = std::optional<std::string>;
+
+Fault fault_of_walls(const Agreement& agreement) {
   for (std::size_t wall = 0; wall < 4; ++wall) {
     if (is_seen(agreement, wall) || is_excused(agreement, wall)) continue;
     const WallCounts counts = counts_of_wall(agreement, wall, false);
-    refuse(fmt::format(
-        "{}; {} is not where the sizes have it: of its pixels, {:.0f} % show it, {:.0f} % "
-        "something behind it and {:.0f} % nothing",
+    return fmt::format(
+        "{}; {} is not where the sizes have it: of its pixels, {:.0f} % show it, {:.0f} % something behind "
+        "it "
+        "and {:.0f} % nothing",
         walls_seen(agreement), name_of_wall(wall), percent(counts.explained, counts.expected),
         percent(counts.contradicted, counts.expected),
-        percent(counts.expected - counts.explained - counts.contradicted - counts.hidden, counts.expected)));
+        percent(counts.expected - counts.explained - counts.contradicted - counts.hidden, counts.expected));
   }
+  return std::nullopt;
 }
 
-// The rim is the most of a bin that tubes do not hide.
-void expect_rim(const Agreement& agreement, const Bin& bin) {
-  constexpr double share = 0.25;
+// The rim is what tubes hide least of a bin.
+Fault fault_of_rim(const Agreement& agreement, const Bin& bin) {
+  constexpr double explained_min = 0.25;
+  constexpr double contradicted_max = 0.3;
   WallCounts all;
   for (std::size_t wall = 0; wall < 4; ++wall) {
     const WallCounts counts = counts_of_wall(agreement, wall, true);
@@ -211,26 +195,61 @@ void expect_rim(const Agreement& agreement, const Bin& bin) {
     all.hidden += counts.hidden;
     all.contradicted += counts.contradicted;
   }
-  if (all.explained >= share * all.expected) return;
-  refuse(fmt::format(
-      "the rim is not {} m above the floor: of its pixels, {:.0f} % show it, {:.0f} % something in "
-      "front of it and {:.0f} % something behind it",
+  if (all.explained >= explained_min * all.expected && all.contradicted <= contradicted_max * all.expected)
+    return std::nullopt;
+  return fmt::format(
+      "the rim is not {:.3f} m above the floor: of its pixels, {:.0f} % show it, {:.0f} % something in front "
+      "of it and {:.0f} % something behind it",
       bin.height, percent(all.explained, all.expected), percent(all.hidden, all.expected),
-      percent(all.contradicted, all.expected)));
+      percent(all.contradicted, all.expected));
 }
 
-void expect_agreement(const Agreement& agreement, const Bin& bin) {
+// Why a bin cannot be there.
+Fault fault_of(const Agreement& agreement, const Bin& bin) {
   constexpr double contradicted_max = 20;  // percent
   const int measured = total(agreement.explained) + total(agreement.hidden) + total(agreement.contradicted);
   const double contradicted = percent(total(agreement.contradicted), measured);
   if (contradicted > contradicted_max) {
-    refuse(fmt::format(
-        "in the best pose of this bin, {:.0f} % of the points are behind it and {:.0f} % on it; "
-        "is it {} x {} x {} m?",
-        contradicted, percent(total(agreement.explained), measured), bin.length, bin.width, bin.height));
+    return fmt::format(
+        "in the best pose of this bin, {:.0f} % of the points are behind it and {:.0f} % on it; is it {:.3f} "
+        "x "
+        "{:.3f} x {:.3f} m?",
+        contradicted, percent(total(agreement.explained), measured), bin.length, bin.width, bin.height);
   }
-  expect_rim(agreement, bin);
-  expect_walls(agreement);
+  if (const Fault fault = fault_of_rim(agreement, bin)) return fault;
+  return fault_of_walls(agreement);
+}
+
+bool is_possible(const Candidate& candidate, const Bin& bin) {
+  return !fault_of(agreement_of(candidate.verdicts), bin);
+}
+
+// What a pixel says of rim and walls. A floor alone may be a table.
+int value_of_structure(const PixelVerdict& pixel) {
+  const bool is_floor = pixel.part && kind_of_part(*pixel.part) == PartKind::floor;
+  return is_floor && pixel.verdict == Verdict::explained ? 0 : value_of(pixel.verdict);
+}
+
+// By how much the first is better where it is better.
+int advantage(const Candidate& first, const Candidate& second) {
+  int sum = 0;
+  for (std::size_t i = 0; i < first.verdicts.size(); ++i)
+    sum += std::max(0, value_of_structure(first.verdicts[i]) - value_of_structure(second.verdicts[i]));
+  return sum;
+}
+
+void expect_no_rival(const Bin& bin, const Candidate& best, const std::vector<Candidate>& others) {
+  constexpr double as_good = 0.6;
+  constexpr double apart = 0.01;  // m
+  constexpr double turned = 2 * degree;
+  for (const Candidate& rival : others) {
+    const auto [distance, angle] = difference(bin, best.pose, rival.pose);
+    if ((distance < apart && angle < turned) || !is_possible(rival, bin)) continue;
+    if (rival.score < as_good * best.score) continue;
+    if (advantage(rival, best) < as_good * advantage(best, rival)) continue;
+    refuse(fmt::format("two poses fit equally well; one is {:.0f} mm and {:.0f}° from the other",
+                       1e3 * distance, angle / degree));
+  }
 }
 
 // The largest standard deviation of a corner of the bin, m.
@@ -266,13 +285,32 @@ void expect_size(const char* name, double measured, double given, double margin)
   constexpr double least = 0.005;  // m
   constexpr double share = 0.01;
   if (std::abs(measured - given) <= margin + std::max(least, share * given)) return;
-  refuse(fmt::format("the bin's {} is {:.3f} m in the cloud, but given as {} m", name, measured, given));
+  refuse(fmt::format("the bin's {} is {:.3f} m in the cloud, but given as {:.3f} m", name, measured, given));
 }
 
 void expect_sizes(const Bin& given, double margin, const Bin& measured) {
-  expect_size("length", measured.length, given.length, margin);
-  expect_size("width", measured.width, given.width, margin);
+  expect_size("length", measured.length, given.length, 2 * margin);
+  expect_size("width", measured.width, given.width, 2 * margin);
   expect_size("height", measured.height, given.height, margin);
+}
+
+// Something flat over a floor that is not seen is the floor itself.
+void expect_no_higher_floor(const std::vector<FlatPlane>& planes, const Bin& bin, const Isometry3d& pose,
+                            const Agreement& agreement) {
+  constexpr double share_seen = 0.1;
+  constexpr double parallel = 3 * degree;
+  constexpr double share_of_floor = 0.1;
+  constexpr double apart = 0.01;  // m
+  if (agreement.explained[0] > share_seen * agreement.expected[0]) return;
+  for (const FlatPlane& plane : planes) {
+    const double height = plane.offset - plane.normal.dot(pose.translation());
+    if (plane.normal.dot(pose.linear().col(2)) < std::cos(parallel) || height < apart ||
+        height > bin.height - apart || plane.area < share_of_floor * bin.length * bin.width)
+      continue;
+    refuse(fmt::format(
+        "the floor is {:.3f} m under the rim in the cloud, but the bin's height is given as {:.3f} m",
+        bin.height - height, bin.height));
+  }
 }
 
 std::vector<LocatedPart> parts_of(const BinFit& fit) {
@@ -337,11 +375,15 @@ Located locate_bin(const View& view, const Support& support, const Camera& camer
       view, patches, planes, support.bin, std::max(least, deviations * task.known.noise) + support.margin);
   if (poses.empty()) refuse("no plane that faces the camera is seen");
   const std::vector<Candidate> candidates = candidates_of(task, poses);
-  const BinFit fit = fit_bin(view, task.known, candidates.front().pose);
+  const auto possible = std::ranges::find_if(
+      candidates, [&](const Candidate& candidate) { return is_possible(candidate, support.bin); });
+  const BinFit fit =
+      fit_bin(view, task.known, possible == candidates.end() ? candidates.front().pose : possible->pose);
   const Candidate best = candidate_at(task, fit.pose);
   const Agreement agreement = agreement_of(best.verdicts);
   expect_sizes(support.bin, support.margin, fit.sizes);
-  expect_agreement(agreement, support.bin);
+  if (const Fault fault = fault_of(agreement, support.bin)) refuse(*fault);
+  expect_no_higher_floor(planes, support.bin, fit.pose, agreement);
   expect_determined(support.bin, fit);
   expect_no_rival(support.bin, best, candidates);
   return located_bin(support, camera, fit, agreement);

@@ -92,7 +92,7 @@ std::vector<RimEdge> rim_edges(const View& view, const Bin& bin, const Isometry3
     for (const auto& [dx, dy] : steps) {
       if (!map.ends_at(column, row, dx, dy)) continue;
       const Vector3d point = on_rim(column, row);
-      edges.push_back({point, (point - on_rim(column - dx, row - dy)).normalized()});
+      edges.push_back({point, point - on_rim(column - dx, row - dy)});
     }
   }
   return edges;

@@ -12,8 +12,8 @@ namespace tanglebin {
 /// A pixel at which the top of the rim ends at a step: beyond it, the camera saw something much lower, or
 /// nothing.
 struct RimEdge {
-  Eigen::Vector3d point;     ///< m, camera frame: where the pixel's ray meets the plane of the rim
-  Eigen::Vector3d outwards;  ///< unit, in that plane: the direction of the image in which the rim ends
+  Eigen::Vector3d point;  ///< m, camera frame: where the pixel's ray meets the plane of the rim
+  Eigen::Vector3d step;   ///< m, in that plane: to there from the pixel before, towards where the rim ends
 };
 
 /// The edges near the rim of a bin in this pose (bin frame → camera frame). Points within `closeness` (m) of
