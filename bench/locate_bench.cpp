@@ -147,6 +147,7 @@ Given scene_of(const Scenes& scenes, int number) {
   if (scenes.scanner == "kinect-v1") look_at_bin(recipe.camera, 1.0, 0, 0, 0.2);
   if (scenes.other_cells) draw_cell(recipe, random);
   Given given;
+  if (scenes.not_a_box) recipe.bin.wall = std::max(recipe.bin.wall, 0.01);
   given.support.bin = recipe.bin;
   if (scenes.not_a_box) {
     given.support.margin = 0.005;

@@ -143,8 +143,11 @@ WallCounts counts_of_wall(const Agreement& agreement, std::size_t wall, bool onl
 
 // A wall counts as seen where its rim or its sides are.
 bool is_seen(const Agreement& agreement, std::size_t wall) {
-  constexpr int least = 5;
-  constexpr double share = 0.2;
+  constexpr double contradicted_max = 0.6;  // of the rim, which nothing can be seen through
+  const std::size_t rim = part_of(PartKind::rim, wall);
+  if (agreement.contradicted.at(rim) > contradicted_max * agreement.expected.at(rim)) return false;
+  constexpr int least = 8;
+  constexpr double share = 0.1;
   for (const PartKind kind : {PartKind::rim, PartKind::inner, PartKind::outer}) {
     const std::size_t part = part_of(kind, wall);
     const int explained = agreement.explained.at(part);
@@ -204,6 +207,23 @@ Fault fault_of_rim(const Agreement& agreement, const Bin& bin) {
       percent(all.contradicted, all.expected));
 }
 
+// A box under a table, or on its side there, has a side or its rim in the table, and nothing of its inside is
+// seen.
+Fault fault_of_inside(const Agreement& agreement) {
+  constexpr double expected_min = 0.2;
+  constexpr double explained_min = 0.02;
+  int expected = agreement.expected[0];
+  int explained = agreement.explained[0];
+  for (std::size_t wall = 0; wall < 4; ++wall) {
+    expected += agreement.expected.at(part_of(PartKind::inner, wall));
+    explained += agreement.explained.at(part_of(PartKind::inner, wall));
+  }
+  if (expected >= expected_min * total(agreement.expected) && explained >= explained_min * expected)
+    return std::nullopt;
+  return fmt::format("of the best place for this bin, {:.1f} % of its inside is seen",
+                     percent(explained, expected));
+}
+
 // Why a bin cannot be there.
 Fault fault_of(const Agreement& agreement, const Bin& bin) {
   constexpr double contradicted_max = 20;  // percent
@@ -216,40 +236,13 @@ Fault fault_of(const Agreement& agreement, const Bin& bin) {
         "{:.3f} x {:.3f} m?",
         contradicted, percent(total(agreement.explained), measured), bin.length, bin.width, bin.height);
   }
+  if (const Fault fault = fault_of_inside(agreement)) return fault;
   if (const Fault fault = fault_of_rim(agreement, bin)) return fault;
   return fault_of_walls(agreement);
 }
 
 bool is_possible(const Candidate& candidate, const Bin& bin) {
   return !fault_of(agreement_of(candidate.verdicts), bin);
-}
-
-// What a pixel says of rim and walls. A floor alone may be a table.
-int value_of_structure(const PixelVerdict& pixel) {
-  const bool is_floor = pixel.part && kind_of_part(*pixel.part) == PartKind::floor;
-  return is_floor && pixel.verdict == Verdict::explained ? 0 : value_of(pixel.verdict);
-}
-
-// By how much the first is better where it is better.
-int advantage(const Candidate& first, const Candidate& second) {
-  int sum = 0;
-  for (std::size_t i = 0; i < first.verdicts.size(); ++i)
-    sum += std::max(0, value_of_structure(first.verdicts[i]) - value_of_structure(second.verdicts[i]));
-  return sum;
-}
-
-void expect_no_rival(const Bin& bin, const Candidate& best, const std::vector<Candidate>& others) {
-  constexpr double as_good = 0.6;
-  constexpr double apart = 0.01;  // m
-  constexpr double turned = 2 * degree;
-  for (const Candidate& rival : others) {
-    const auto [distance, angle] = difference(bin, best.pose, rival.pose);
-    if ((distance < apart && angle < turned) || !is_possible(rival, bin)) continue;
-    if (rival.score < as_good * best.score) continue;
-    if (advantage(rival, best) < as_good * advantage(best, rival)) continue;
-    refuse(fmt::format("two poses fit equally well; one is {:.0f} mm and {:.0f}° from the other",
-                       1e3 * distance, angle / degree));
-  }
 }
 
 // The largest standard deviation of a corner of the bin, m.
@@ -270,10 +263,54 @@ double corner_sd(const Bin& bin, const Eigen::Matrix<double, 6, 6>& covariance) 
   return largest;
 }
 
-void expect_determined(const Bin& bin, const BinFit& fit) {
+bool is_determined(const Bin& bin, const BinFit& fit) {
   constexpr double largest = 0.005;  // m
+  return corner_sd(bin, fit.covariance) <= largest;
+}
+
+// What a pixel says of rim and walls. A floor alone may be a table.
+int value_of_structure(const PixelVerdict& pixel) {
+  const bool is_floor = pixel.part && kind_of_part(*pixel.part) == PartKind::floor;
+  return is_floor && pixel.verdict == Verdict::explained ? 0 : value_of(pixel.verdict);
+}
+
+// By how much the first is better where it is better.
+int advantage(const Candidate& first, const Candidate& second) {
+  int sum = 0;
+  for (std::size_t i = 0; i < first.verdicts.size(); ++i)
+    sum += std::max(0, value_of_structure(first.verdicts[i]) - value_of_structure(second.verdicts[i]));
+  return sum;
+}
+
+// Of the best candidate that is possible and determined; else of the best.
+BinFit best_fit(const Task& task, const std::vector<Candidate>& candidates) {
+  for (const Candidate& candidate : candidates) {
+    if (!is_possible(candidate, task.known.bin)) continue;
+    const BinFit fit = fit_bin(task.view, task.known, candidate.pose);
+    if (is_determined(task.known.bin, fit)) return fit;
+  }
+  return fit_bin(task.view, task.known, candidates.front().pose);
+}
+
+void expect_no_rival(const Task& task, const Candidate& best, const std::vector<Candidate>& others) {
+  const Bin& bin = task.known.bin;
+  constexpr double as_good = 0.6;
+  constexpr double apart = 0.01;  // m
+  constexpr double turned = 2 * degree;
+  for (const Candidate& rival : others) {
+    const auto [distance, angle] = difference(bin, best.pose, rival.pose);
+    if ((distance < apart && angle < turned) || !is_possible(rival, bin)) continue;
+    if (rival.score < as_good * best.score) continue;
+    if (advantage(rival, best) < as_good * advantage(best, rival)) continue;
+    if (!is_determined(bin, fit_bin(task.view, task.known, rival.pose))) continue;
+    refuse(fmt::format("two poses fit equally well; one is {:.0f} mm and {:.0f}° from the other",
+                       1e3 * distance, angle / degree));
+  }
+}
+
+void expect_determined(const Bin& bin, const BinFit& fit) {
+  if (is_determined(bin, fit)) return;
   const double sd = corner_sd(bin, fit.covariance);
-  if (sd <= largest) return;
   const auto position = fit.covariance.diagonal().head<3>().cwiseSqrt().eval();
   refuse(
       fmt::format("what is seen of the bin does not determine its pose: a corner is known to {:.0f} mm, the "
@@ -375,17 +412,14 @@ Located locate_bin(const View& view, const Support& support, const Camera& camer
       view, patches, planes, support.bin, std::max(least, deviations * task.known.noise) + support.margin);
   if (poses.empty()) refuse("no plane that faces the camera is seen");
   const std::vector<Candidate> candidates = candidates_of(task, poses);
-  const auto possible = std::ranges::find_if(
-      candidates, [&](const Candidate& candidate) { return is_possible(candidate, support.bin); });
-  const BinFit fit =
-      fit_bin(view, task.known, possible == candidates.end() ? candidates.front().pose : possible->pose);
+  const BinFit fit = best_fit(task, candidates);
   const Candidate best = candidate_at(task, fit.pose);
   const Agreement agreement = agreement_of(best.verdicts);
   expect_sizes(support.bin, support.margin, fit.sizes);
   if (const Fault fault = fault_of(agreement, support.bin)) refuse(*fault);
   expect_no_higher_floor(planes, support.bin, fit.pose, agreement);
   expect_determined(support.bin, fit);
-  expect_no_rival(support.bin, best, candidates);
+  expect_no_rival(task, best, candidates);
   return located_bin(support, camera, fit, agreement);
 }
 
