@@ -33,7 +33,7 @@ tanglebin_room(model/locate TARGET axis        ROOMS base geometry cloud)
 tanglebin_room(model/axis   TARGET axis        ROOMS base geometry cloud model/scene)
 tanglebin_room(model/paper  TARGET paper       ROOMS base geometry cloud model/scene)
 tanglebin_room(model        TARGET modelling   ROOMS base cloud model/scene model/axis model/paper)
-tanglebin_room(scene        TARGET modelling   ROOMS base geometry cloud io model/scene model/axis)
+tanglebin_room(scene        TARGET modelling   ROOMS base geometry cloud io model/scene model/locate model/axis)
 tanglebin_room(score        TARGET modelling   ROOMS base geometry cloud)
 
 tanglebin_room(generate     TARGET simulation  ROOMS base geometry)

@@ -27,6 +27,7 @@
 #include "tanglebin/model/paper/paper_method.hpp"
 #include "tanglebin/model/scene/support_frame.hpp"
 #include "tanglebin/report/pictures_of_steps.hpp"
+#include "tanglebin/scene/locate_support.hpp"
 #include "tanglebin/scene/read_measurement.hpp"
 
 namespace tanglebin::cli {
@@ -41,6 +42,7 @@ struct ModelArguments {
   ModelOptions model;
   SceneOptions scene;
   std::optional<std::string> debug_directory;
+  bool locates = false;
   bool json = false;
 };
 
@@ -123,8 +125,10 @@ void model_cloud(const ModelArguments& arguments) {
   const Scene told = scene_of(arguments.scene, arguments.cloud);
   const Measurement measured =
       read_input(arguments.cloud, [&](auto&&... from) { return read_measurement(from..., told); });
-  const ResolvedScene resolved =
-      with_file(arguments.cloud, [&] { return resolve(measured.scene, measured.cloud); });
+  const ResolvedScene resolved = with_file(arguments.cloud, [&] {
+    return resolve(arguments.locates ? locate_support(measured.scene, measured.cloud).scene : measured.scene,
+                   measured.cloud);
+  });
   print_notes(resolved.notes);
   validate(resolved.known, settings);
   const Model model =
@@ -163,6 +167,8 @@ void add_model(CLI::App& app) {
   add_scene_option(*command, arguments->scene.scene);
   add_camera_options(*command, arguments->scene);
   add_tube_options(*command, arguments->scene);
+  command->add_flag("--locate", arguments->locates,
+                    "First find the scene's bin or plane in the cloud (tanglebin locate)");
   command->add_option("--debug-dir", arguments->debug_directory,
                       "Directory for pictures of the result of each step");
   command->add_flag("--json", arguments->json, "Print the steps as JSON");

@@ -254,7 +254,7 @@ void find_kinds(const Scene& scene, ResolvedScene& resolved) {
 
 }  // namespace
 
-ResolvedScene resolve(const Scene& scene, const PointCloud& cloud) {
+ResolvedScene resolve_without_tubes(const Scene& scene, const PointCloud& cloud) {
   validate(scene);
   ResolvedScene resolved;
   resolved.cloud = in_metres(cloud, unit_of(scene, cloud, resolved.notes));
@@ -266,6 +266,11 @@ ResolvedScene resolve(const Scene& scene, const PointCloud& cloud) {
   if (!scene.support)
     resolved.notes.emplace_back(
         "nothing is known of a bin or a floor; a scene file's [support] says what there is");
+  return resolved;
+}
+
+ResolvedScene resolve(const Scene& scene, const PointCloud& cloud) {
+  ResolvedScene resolved = resolve_without_tubes(scene, cloud);
   find_kinds(scene, resolved);
   validate(resolved.known);
   return resolved;

@@ -27,4 +27,7 @@ struct ResolvedScene {
 /// validate(KnownScene) does.
 ResolvedScene resolve(const Scene& scene, const PointCloud& cloud);
 
+/// The same without the tubes: the kinds are the default's.
+ResolvedScene resolve_without_tubes(const Scene& scene, const PointCloud& cloud);
+
 }  // namespace tanglebin

@@ -156,7 +156,8 @@ PlaneFit fit_plane(const View& view, const FlatPlane& plane, double margin) {
     const Vector3d step = information.ldlt().solve(sums.gradient);
     const Vector3d normal = (frame.normal - step[1] * frame.x - step[2] * frame.y).normalized();
     frame = frame_on(normal, frame.origin + step[0] * frame.normal);
-    gate = std::max(deviations * spread, narrowest) + margin;
+    // Clutter spreads as far as the gate: it must not widen it.
+    gate = std::min(gate, std::max(deviations * spread, narrowest) + margin);
   }
   near = within(points, frame, gate);
   double squares = 0;
