@@ -359,15 +359,17 @@ State start(const BinToFit& known, const Isometry3d& pose) {
   return {.pose = pose, .bin = known.bin, .gap = likely_gap};
 }
 
-// Steps with gates that close.
+// Steps with gates that close. The sizes stay near the given ones: while gates are wide, they would follow
+// clutter.
 void approach(const View& view, const BinToFit& known, State& state, const std::vector<Vector3d>& points,
               const std::vector<RimEdge>& edges) {
   constexpr double rough_error = 0.001;  // m, that points of a block share
+  const BinToFit firm{.bin = known.bin, .margin = 0, .noise = known.noise};
   for (const double gate : {0.03, 0.03, 0.02, 0.02, 0.012, 0.012, 0.008, 0.008}) {
     const Gates gates = same_gates(gate + known.margin);
     std::vector<Observation> observations = observe(state, points, edges, gates, false);
     weigh(observations, gates, rough_error);
-    improve(view, known, state, observations);
+    improve(view, firm, state, observations);
   }
 }
 
