@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -92,6 +93,28 @@ TEST_F(LocateCommand, ModelDoesBoth) {
                                         " --locate --out " + path("labelled.ply") + " --json");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out)["tubes"], 1);
+}
+
+// The frame of a bin whose walls are bent: its sizes are read from the picture.
+TEST(LocateReal, FindsTheBinOfARealFrame) {
+  const std::filesystem::path real = TANGLEBIN_SOURCE "/../shared/real";
+  if (!std::filesystem::exists(real / "raw-frame.png")) GTEST_SKIP() << "no real scans in " << real;
+  const test::TemporaryDirectory directory;
+  const std::string cloud = (directory / "raw.ply").string();
+  const std::string camera = (directory / "raw.json").string();
+  const std::string convert = (real / "to_cloud.py").string() + " " + (real / "raw-frame.png").string() +
+                              " " + cloud + " " + camera + " > /dev/null 2>&1";
+  if (std::system(convert.c_str()) != 0) GTEST_SKIP() << "to_cloud.py needs python3-numpy and python3-pil";
+  test::write_bytes(directory / "scene.toml",
+                    "[camera]\nfile = \"raw.json\"\nframe = \"camera\"\nunit = \"m\"\n\n[support]\nshape = "
+                    "\"bin\"\nlength = 0.435\nwidth = 0.357\nheight = 0.07\nwall = 0.008\nmargin = 0.005\n");
+  const ProgramResult run =
+      run_program("locate --json " + cloud + " --scene " + (directory / "scene.toml").string());
+  ASSERT_EQ(run.status, 0) << run.err;
+  const nlohmann::json json = nlohmann::json::parse(run.out);
+  EXPECT_LT(json["residual_mm"].get<double>(), 6);
+  EXPECT_GT(json["explained"].get<double>(), 0.7);
+  EXPECT_GT(json["support_to_world"][2][2].get<double>(), 0.998);
 }
 
 }  // namespace
