@@ -40,7 +40,7 @@ void generate_cases(benchmark::State& state, const Recipe& recipe) {
   for ([[maybe_unused]] const auto iteration : state) {
     const Clock::time_point start = Clock::now();
     const CaseId id{recipe.sets[0].name, tubes, ++number};
-    const Scene scene = simulate(recipe, id);
+    const SimulatedScene scene = simulate(recipe, id);
     const Clock::time_point simulated = Clock::now();
     for (const CaseFile& file : case_files(recipe, id, scene)) {
       make_directories((directory / file.path).parent_path());

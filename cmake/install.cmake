@@ -16,8 +16,9 @@ set(public_headers
   scan/scan scan/scan_output scan/scanner scan/sensor
   recipe/case_id recipe/recipe
   simulate/simulate simulate/world_sdf
-  model/model_tubes model/parameters model/axis/axis_settings model/paper/paper_settings model/scene/known_scene model/scene/model model/scene/segment_tree
+  model/model_tubes model/parameters model/locate/locate model/axis/axis_settings model/paper/paper_settings model/scene/known_scene model/scene/model model/scene/segment_tree
   model/scene/shared_settings
+  scene/camera_file scene/read_scene scene/resolve_scene scene/scene scene/write_scene
   score/confusion score/metrics score/score score/score_clouds score/score_tubes)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)

@@ -27,4 +27,13 @@ CLI::Validator finite_number() {
   return {complaint, ""};
 }
 
+CLI::Validator number_within(double least, double most) {
+  const auto complaint = [=](const std::string& text) -> std::string {
+    const auto number = to_number<double>(text);
+    if (number && *number >= least && *number <= most) return {};
+    return fmt::format("found {}, expected a number from {} to {}", excerpt(text), least, most);
+  };
+  return {complaint, fmt::format("{}-{}", least, most)};
+}
+
 }  // namespace tanglebin::cli

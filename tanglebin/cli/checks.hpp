@@ -11,4 +11,7 @@ CLI::Validator whole_number(int least, int most);
 /// A finite number.
 CLI::Validator finite_number();
 
+/// A number from `least` to `most`.
+CLI::Validator number_within(double least, double most);
+
 }  // namespace tanglebin::cli

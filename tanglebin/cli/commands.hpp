@@ -13,6 +13,7 @@ void add_merge(CLI::App& app);
 void add_verify(CLI::App& app);
 void add_scan(CLI::App& app);
 void add_preview(CLI::App& app);
+void add_locate(CLI::App& app);
 void add_model(CLI::App& app);
 void add_score(CLI::App& app);
 void add_experiment(CLI::App& app);

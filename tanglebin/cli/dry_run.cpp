@@ -28,7 +28,7 @@ SetEstimate sum_of(const std::vector<SetEstimate>& sets) {
 }
 
 // Two digits are more than an estimate deserves.
-std::string duration_text(double seconds) {
+std::string rough_duration(double seconds) {
   constexpr double minute = 60;
   constexpr double hour = 60 * minute;
   if (seconds < 2 * minute) return fmt::format("{:.0f} s", std::ceil(seconds));
@@ -46,11 +46,11 @@ std::string size_text(double bytes) {
 void print_text(const DryRun& run, int jobs) {
   for (const SetEstimate& set : run.sets) {
     print_out("set {}: {}, about {} of one processor's time and {}\n", set.set, counted(set.cases, "case"),
-              duration_text(set.seconds), size_text(set.bytes));
+              rough_duration(set.seconds), size_text(set.bytes));
   }
   const SetEstimate all = sum_of(run.sets);
   print_out("in all: {}, about {} with --jobs {} and {}\n", counted(all.cases, "case"),
-            duration_text(all.seconds / jobs), jobs, size_text(all.bytes));
+            rough_duration(all.seconds / jobs), jobs, size_text(all.bytes));
   for (const std::string& warning : run.warnings) print_out("warning: {}\n", warning);
 }
 
@@ -79,7 +79,9 @@ void write_picture(const DryRun& run, const std::string& file) {
 
 void print_dry_run(const Recipe& recipe, const std::vector<CaseId>& wanted, const DryRunReport& report) {
   const DryRun run = dry_run(recipe, wanted);
-  if (report.json) {
+  if (report.picture == standard_stream) {
+    for (const std::string& warning : run.warnings) print_error("tanglebin: warning: {}\n", warning);
+  } else if (report.json) {
     print_json(run);
   } else {
     print_text(run, report.jobs);

@@ -13,7 +13,7 @@ namespace tanglebin::cli {
 struct DryRunReport {
   int jobs = 1;  ///< worker processes that the dataset will be made with
   bool json = false;
-  std::optional<std::string> picture;  ///< file to write
+  std::optional<std::string> picture;  ///< file to write; "-" for standard output, without anything else
 };
 
 /// Prints what the wanted cases, at least one, will take and what looks wrong, and writes the picture if one

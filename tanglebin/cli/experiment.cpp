@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "tanglebin/cli/model_options.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
+#include "tanglebin/cli/scene_options.hpp"
 #include "tanglebin/experiment/run_experiment.hpp"
 #include "tanglebin/experiment/summary.hpp"
 #include "tanglebin/report/text.hpp"
@@ -30,6 +32,7 @@ struct ExperimentArguments {
   std::string out;
   std::vector<std::string> methods = {name_of(Method::axis)};
   std::string ratios = "0.1:1.0:0.1";
+  std::optional<std::string> scene;
   ManyCases many;
   ModelOptions model;
   ProgressStyle progress = ProgressStyle::line;
@@ -129,6 +132,7 @@ void experiment(const ExperimentArguments& arguments) {
   ExperimentSettings settings{.methods = methods_of(arguments),
                               .ratios = parse_ratios(arguments.ratios, "--downsample"),
                               .model = settings_of(arguments.model)};
+  if (arguments.scene) settings.scene = scene_named(*arguments.scene, "");
   expect_dataset(arguments.dataset);
   const Dataset dataset = read_dataset(arguments.dataset);
   const std::vector<CaseId> wanted = chosen(arguments.many, cases(dataset), arguments.dataset);
@@ -169,6 +173,11 @@ void add_experiment(CLI::App& app) {
   command
       ->add_option("--downsample", arguments->ratios, "Downsampling ratios: 0.3, 0.1,0.3 or first:last:step")
       ->capture_default_str();
+  command
+      ->add_option("--scene", arguments->scene,
+                   "Scene file with what to tell the methods instead of what the recipe says: another bin or "
+                   "camera, tubes whose radius or length is not known")
+      ->option_text("FILE");
   add_options(*command, arguments->many);
   add_options(*command, arguments->model);
   add_progress_option(*command, arguments->progress);

@@ -8,10 +8,12 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
+#include "tanglebin/cli/checks.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/dry_run.hpp"
 #include "tanglebin/cli/fill_report.hpp"
 #include "tanglebin/cli/many_cases.hpp"
+#include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
@@ -72,6 +74,7 @@ std::optional<Shard> shard_of(const GenerateArguments& arguments) {
 }
 
 void generate(const GenerateArguments& arguments) {
+  if (arguments.picture) expect_outputs({{"--picture", *arguments.picture, {".png"}}});
   const Recipe recipe = recipe_of(arguments);
   const std::optional<Shard> shard = shard_of(arguments);
   std::vector<CaseId> wanted = chosen(arguments.many, cases(recipe), arguments.recipe);
@@ -120,7 +123,7 @@ void add_generate(CLI::App& app) {
       "job");
   command->add_option("--case-limit", arguments->case_limit, "Seconds after which a case has failed")
       ->capture_default_str()
-      ->check(CLI::Range(1e-3, 1e9));
+      ->check(number_within(1e-3, 1e9));
   command->add_option("--seed", arguments->seed,
                       "Seed, instead of the recipe's: decimal, or hexadecimal after 0x");
   add_progress_option(*command, arguments->progress);

@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
   add_verify(app);
   add_scan(app);
   add_preview(app);
+  add_locate(app);
   add_model(app);
   add_score(app);
   add_experiment(app);

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -17,6 +18,7 @@
 #include "tanglebin/cli/checks.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/outputs.hpp"
+#include "tanglebin/cli/scene_options.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/read_cloud.hpp"
@@ -26,13 +28,14 @@ namespace tanglebin::cli {
 namespace {
 
 constexpr const char* example = R"(Example:
-  tanglebin preview dataset/A10/tube_configurations/1.txt --out pile.png
-  tanglebin preview dataset/A10/plys/1.ply --azimuth-deg 30 --elevation-deg 60 --out cloud.png)";
+  tanglebin preview dataset/A10/tube_configurations/1.txt --scene dataset --out pile.png
+  tanglebin preview dataset/A10/plys/1.ply --azimuth-deg 30 --elevation-deg 60 --out cloud.png
+Around a configuration, the bin of --scene is drawn.)";
 
 struct Options {
   std::string input;
   std::string out;
-  std::string bin = "paper";
+  std::optional<std::string> scene;
   double azimuth_deg = -60;
   double elevation_deg = 45;
   int width = 1200;
@@ -45,6 +48,11 @@ View view_of(const Options& options) {
           .elevation = options.elevation_deg * degree,
           .width = options.width,
           .height = options.height};
+}
+
+Support support_of(const Options& options) {
+  const Scene scene = options.scene ? scene_named(*options.scene, options.input) : Scene{};
+  return scene.support.value_or(Support{.shape = Support::Shape::nothing});
 }
 
 /// Distinguishes configurations from clouds by the first character, which also works for pipes.
@@ -60,7 +68,7 @@ Picture draw(std::istream& in, const std::string& name, const Options& options) 
                      is_empty ? "an empty file" : excerpt({&character, 1}) + " at the start",
                      "a configuration, which begins with the number of tubes, or a PLY or PCD cloud");
   }
-  return picture_of_tubes(read_configuration(in, name), bin_preset(options.bin), view_of(options), name);
+  return picture_of_tubes(read_configuration(in, name), support_of(options), view_of(options), name);
 }
 
 Picture draw_file(const std::string& file, const Options& options) {
@@ -107,8 +115,7 @@ void add_preview(CLI::App& app) {
   command->add_option("--height", options->height, "Height of the picture, pixels")
       ->check(whole_number(1, largest_picture))
       ->capture_default_str();
-  command->add_option("--bin", options->bin, "Bin around a configuration: paper or published")
-      ->capture_default_str();
+  add_scene_option(*command, options->scene);
   command->footer(example);
   command->callback([options] { run(*options); });
 }

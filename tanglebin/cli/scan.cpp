@@ -15,6 +15,7 @@
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/scene_options.hpp"
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/geometry/bin.hpp"
 #include "tanglebin/geometry/view_of_bin.hpp"
@@ -33,8 +34,9 @@ namespace {
 struct ScanArguments {
   std::string configuration;
   std::string out;
+  std::optional<std::string> scene;
   std::string bin = "paper";
-  std::string scanner = "paper";
+  std::optional<std::string> scanner;
   std::vector<std::string> parameters;
   std::string seed = "0";
   bool with_bin = false;
@@ -120,26 +122,68 @@ std::vector<Output> outputs(const ScanArguments& arguments) {
   return files;
 }
 
+// The files with their contents, all before the first is written: one that cannot be made leaves none behind.
+std::vector<std::pair<std::string, std::string>> contents(const ScanArguments& arguments,
+                                                          const std::vector<Tube>& tubes,
+                                                          const Support& support, const Scan& view) {
+  std::vector<std::pair<std::string, std::string>> files{
+      {arguments.out, cloud_bytes(arguments, view, largest_id(tubes))}};
+  if (arguments.depth) {
+    files.emplace_back(*arguments.depth, depth_png(depth_image(view)));
+    files.emplace_back(camera_file(*arguments.depth), camera_json(view.camera));
+  }
+  if (arguments.labels) files.emplace_back(*arguments.labels, label_png(label_image(view)));
+  if (arguments.picture) {
+    const Picture picture = picture_of_scan(scan(tubes, support, view.camera), view, arguments.configuration);
+    files.emplace_back(*arguments.picture, color_png(picture.width, picture.height, picture.pixels));
+  }
+  return files;
+}
+
+/// What to scan with, and what the tubes lie in or on.
+struct Setting {
+  Scanner scanner;
+  Support support;
+};
+
+// A scene's camera takes the place of the scanner's, whose sensor stays.
+void take_camera(const SceneCamera& camera, const ScanArguments& arguments, Scanner& scanner) {
+  if (!camera.intrinsics && !camera.pose) return;
+  if (!camera.intrinsics || !camera.pose || camera.intrinsics->width == 0)
+    throw InputError({*arguments.scene, 0, "camera"},
+                     "a camera without pose, intrinsics or the size of its image", "all of them, or none");
+  scanner.camera = camera_with(*camera.intrinsics, *camera.pose);
+  if (arguments.scanner)
+    print_error("tanglebin: the camera is the scene's; only the sensor is that of --scanner {}\n",
+                *arguments.scanner);
+}
+
+Setting setting_of(const ScanArguments& arguments) {
+  Setting setting{
+      .scanner = scanner_with(arguments.scanner.value_or("paper"), arguments.parameters, "--parameter"),
+      .support = {.bin = bin_preset(arguments.bin)}};
+  if (arguments.scene) {
+    const Scene scene = scene_named(*arguments.scene, arguments.configuration);
+    take_camera(scene.camera, arguments, setting.scanner);
+    setting.support = scene.support.value_or(Support{.shape = Support::Shape::nothing});
+  }
+  if (setting.support.shape == Support::Shape::bin) {
+    Camera camera = setting.scanner.camera;
+    camera.pose = setting.support.pose.inverse() * camera.pose;
+    validate(camera, setting.support.bin);
+  }
+  return setting;
+}
+
 void scan_configuration(const ScanArguments& arguments) {
   expect_outputs(outputs(arguments));
-  const Scanner scanner = scanner_with(arguments.scanner, arguments.parameters, "--parameter");
-  const Bin bin = bin_preset(arguments.bin);
-  validate(scanner.camera, bin);
+  const auto [scanner, support] = setting_of(arguments);
   const std::uint64_t seed = seed_of(arguments);
   const std::vector<Tube> tubes =
       read_input(arguments.configuration, [](auto&&... from) { return read_configuration(from...); });
-  const Scan view = scan(tubes, bin, scanner.camera, scanner.sensor, seed);
+  const Scan view = scan(tubes, support, scanner.camera, scanner.sensor, seed);
   if (!tubes.empty() && !shows_a_tube(view)) warn_of_no_tube(scanner.camera, tubes);
-  write_output(arguments.out, cloud_bytes(arguments, view, largest_id(tubes)));
-  if (arguments.depth) {
-    write_output(*arguments.depth, depth_png(depth_image(view)));
-    write_output(camera_file(*arguments.depth), camera_json(view.camera));
-  }
-  if (arguments.labels) write_output(*arguments.labels, label_png(label_image(view)));
-  if (arguments.picture) {
-    const Picture picture = picture_of_scan(scan(tubes, bin, scanner.camera), view, arguments.configuration);
-    write_output(*arguments.picture, color_png(picture.width, picture.height, picture.pixels));
-  }
+  for (const auto& [file, bytes] : contents(arguments, tubes, support, view)) write_output(file, bytes);
   if (!take_standard_output(outputs(arguments))) print_summary(arguments, view, tubes);
 }
 
@@ -156,11 +200,16 @@ void add_scan(CLI::App& app) {
       ->add_option("--out", arguments->out,
                    "Cloud: .ply, or .pcd for an organized cloud; - for PLY on standard output")
       ->required();
-  command->add_option("--bin", arguments->bin, "Bin: paper or published")->capture_default_str();
+  add_scene_option(*command, arguments->scene);
+  command->add_option("--bin", arguments->bin, "Bin, without a scene: paper or published")
+      ->capture_default_str()
+      ->excludes("--scene");
   command
-      ->add_option("--scanner", arguments->scanner,
-                   "Scanner: paper (ideal), gaussian, zivid-one-plus-l or kinect-v1")
-      ->capture_default_str();
+      ->add_option(
+          "--scanner", arguments->scanner,
+          "Scanner: paper (ideal), gaussian, zivid-one-plus-l or kinect-v1; its camera too, unless the "
+          "scene has one")
+      ->option_text("NAME [paper]");
   command
       ->add_option("--parameter", arguments->parameters,
                    "Set a parameter of the scanner, such as scanner.baseline=0.3 (docs/sensor.md)")

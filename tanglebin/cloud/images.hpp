@@ -3,6 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "tanglebin/cloud/cloud.hpp"
+#include "tanglebin/geometry/camera.hpp"
+
 namespace tanglebin {
 
 /// Depths along the camera's z axis, row by row.
@@ -18,5 +21,9 @@ struct LabelImage {
   int height;
   std::vector<std::int32_t> labels;
 };
+
+/// The organized cloud of a depth image: a point for each pixel, m, in the camera's frame, NaN where nothing
+/// was measured. Throws InputError unless the image has the camera's size.
+PointCloud cloud_from_depths(const DepthImage& image, const Intrinsics& intrinsics);
 
 }  // namespace tanglebin

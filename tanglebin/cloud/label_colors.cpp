@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/geometry/labels.hpp"
@@ -13,6 +15,7 @@ namespace tanglebin {
 namespace {
 
 constexpr int most_tubes = 1'000'000;
+constexpr int most_tubes_of_scenes = 1000;  // a recipe's limit
 constexpr Color bin_color{128, 128, 128};
 
 // Vivid, and neither dark nor pale, to stand out from the bin's grey and from black; there is room for
@@ -71,6 +74,12 @@ Color candidate(unsigned i) {
   return from_hsv(fraction(first_hue + i / golden_ratio), saturation, value);
 }
 
+bool are_colors_of_labels(const std::vector<Color>& colors) {
+  std::unordered_set<std::uint32_t> of_labels{packed(null_color)};
+  for (const Color& color : label_colors(most_tubes_of_scenes)) of_labels.insert(packed(color));
+  return std::ranges::all_of(colors, [&](const Color& color) { return of_labels.contains(packed(color)); });
+}
+
 }  // namespace
 
 std::vector<Color> label_colors(int tubes) {
@@ -109,6 +118,18 @@ std::vector<std::int32_t> labels_from_colors(const std::vector<Color>& colors, i
     labels.push_back(label->second);
   }
   return labels;
+}
+
+PointCloud labelled(PointCloud cloud, std::vector<std::int32_t> labels) {
+  cloud.labels = std::move(labels);
+  if (!are_colors_of_labels(cloud.colors)) return cloud;
+  const auto last = std::ranges::max_element(cloud.labels);
+  const std::vector<Color> colors = label_colors(last == cloud.labels.end() ? 0 : std::max(bin_label, *last));
+  cloud.colors.clear();
+  cloud.colors.reserve(cloud.labels.size());
+  for (const std::int32_t label : cloud.labels)
+    cloud.colors.push_back(label == null_label ? null_color : colors[static_cast<std::size_t>(label)]);
+  return cloud;
 }
 
 }  // namespace tanglebin

@@ -21,4 +21,8 @@ inline constexpr Color null_color{0, 0, 0};
 std::vector<std::int32_t> labels_from_colors(const std::vector<Color>& colors, int tubes,
                                              const std::string& file);
 
+/// The same cloud with these labels, one for each point. A cloud without colours, or with none but colours of
+/// labels, gets those of its new labels. Any other colours, such as a colour camera's, are kept.
+PointCloud labelled(PointCloud cloud, std::vector<std::int32_t> labels);
+
 }  // namespace tanglebin

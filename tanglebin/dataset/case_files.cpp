@@ -79,7 +79,7 @@ std::vector<std::string> paths_of(const Recipe& recipe, const CaseId& id) {
   return paths;
 }
 
-std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const Scene& scene) {
+std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const SimulatedScene& scene) {
   std::vector<CaseFile> files;
   const auto add = [&](std::string_view kind, std::string_view extension, std::string bytes) {
     files.push_back({file_of(id, kind, extension), std::move(bytes)});

@@ -20,6 +20,6 @@ std::vector<std::string> paths_of(const Recipe& recipe, const CaseId& id);
 
 /// The files of a case that recipe.output asks for (docs/formats.md), for each scanner. The recipe must be
 /// resolved: without random numbers.
-std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const Scene& scene);
+std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const SimulatedScene& scene);
 
 }  // namespace tanglebin

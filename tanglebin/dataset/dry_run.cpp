@@ -94,7 +94,7 @@ private:
 
   double make(const CaseId& id) {
     Recipe resolved = resolve(recipe_, id, draw(recipe_, id));
-    Scene scene = simulate(resolved, id);
+    SimulatedScene scene = simulate(resolved, id);
     const double bytes = bytes_of(case_files(resolved, id, scene));
     look(scene.scan, resolved.scanner_name, id);
     for (std::size_t i = 0; i < scene.further_scans.size(); ++i)

@@ -22,7 +22,7 @@ struct SetEstimate {
 /// A case made in memory.
 struct MadeScene {
   Recipe recipe;  ///< resolved
-  Scene scene;
+  SimulatedScene scene;
 };
 
 struct DryRun {

@@ -30,7 +30,7 @@ std::size_t count_points(const Scan& scan, bool with_bin) {
   return points;
 }
 
-std::vector<ScannerRecord> scanner_records(const Recipe& recipe, const Scene& scene) {
+std::vector<ScannerRecord> scanner_records(const Recipe& recipe, const SimulatedScene& scene) {
   if (recipe.scanner_name.empty()) return {};
   const bool with_bin = recipe.output.bin_points;
   std::vector<ScannerRecord> records{{recipe.scanner_name, count_points(scene.scan, with_bin)}};
@@ -46,7 +46,7 @@ MadeCase make_case(const Recipe& dataset_recipe, const CaseId& id, const CaseWri
   const auto [recipe, scene] = [&] {
     try {
       Recipe resolved = resolve(dataset_recipe, id, drawn);
-      Scene simulated = simulate(resolved, id, stop_if_asked);
+      SimulatedScene simulated = simulate(resolved, id, stop_if_asked);
       return std::pair{std::move(resolved), std::move(simulated)};
     } catch (const InputError& error) {  // no valid recipe or scene; the next case may have one
       throw TaskImpossible(error.problem());

@@ -1,7 +1,6 @@
 #include "tanglebin/dataset/verify_case.hpp"
 
 #include <fmt/core.h>
-#include <png.h>
 #include <tinyxml2.h>
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/geometry/mass_properties.hpp"
 #include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/grey_png.hpp"
 #include "tanglebin/io/json_record.hpp"
 #include "tanglebin/io/pcd.hpp"
 #include "tanglebin/io/ply.hpp"
@@ -207,18 +207,13 @@ std::string fault_of_world(const std::string& bytes) {
 }
 
 std::string fault_of_png(const std::string& bytes, int width, int height) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) return image.message;
-  if (image.width != static_cast<png_uint_32>(width) || image.height != static_cast<png_uint_32>(height)) {
-    std::string fault =
-        fmt::format("found {} x {} pixels, expected {} x {}", image.width, image.height, width, height);
-    png_image_free(&image);
-    return fault;
+  try {
+    const GreyImage image = grey_image_from_png(bytes, "");
+    if (image.width == width && image.height == height) return "";
+    return fmt::format("found {} x {} pixels, expected {} x {}", image.width, image.height, width, height);
+  } catch (const InputError& error) {
+    return error.problem();
   }
-  image.format = PNG_FORMAT_GRAY;
-  std::vector<png_byte> pixels(PNG_IMAGE_SIZE(image));
-  return png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0 ? image.message : "";
 }
 
 std::vector<DatasetFault> faults_of_case(const fs::path& directory, const Recipe& recipe,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -17,6 +18,7 @@
 #include "tanglebin/model/parameters.hpp"
 #include "tanglebin/recipe/case_json.hpp"
 #include "tanglebin/runs/journal.hpp"
+#include "tanglebin/scene/write_scene.hpp"
 
 namespace tanglebin {
 namespace {
@@ -85,6 +87,13 @@ void add_journal_line(FinishedRuns& finished, const std::string& line, const std
   }
 }
 
+// What the methods are told, as a scene file has it; empty if it is what the recipe says.
+std::string scene_text(const Scene& scene) {
+  std::ostringstream text;
+  write_scene(text, scene);
+  return std::move(text).str();
+}
+
 // Everything that the results depend on, besides the cases themselves.
 Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings) {
   Json json{{"version", TANGLEBIN_VERSION},
@@ -96,6 +105,7 @@ Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings)
   json["seed"] = settings.model.seed;
   json["parameters"] = changed_parameters(settings.model);
   json["recipe_sha256"] = dataset.recipe_sha256;
+  json["scene"] = scene_text(settings.scene);
   return json;
 }
 

@@ -7,6 +7,7 @@
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/base/random.hpp"
 #include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/scene/resolve_scene.hpp"
 #include "tanglebin/score/score_clouds.hpp"
 
 namespace tanglebin {
@@ -43,6 +44,15 @@ KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
     }
   }
   return known;
+}
+
+KnownScene known_scene(const Recipe& recipe, const CaseData& data, const CaseId& id, const Scene& told) {
+  const KnownScene known = known_scene(recipe, id);
+  if (is_empty(told)) return known;
+  Scene scene = overridden(scene_of(known), told);
+  scene.camera.frame = CloudFrame::world;
+  scene.camera.unit = 1;
+  return with_file(data.cloud_file, [&] { return resolve(scene, data.cloud).known; });
 }
 
 Model model_case(const KnownScene& known, const CaseData& data, const RunId& run,

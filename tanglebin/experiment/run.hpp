@@ -7,6 +7,7 @@
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/model/model_tubes.hpp"
+#include "tanglebin/scene/scene.hpp"
 #include "tanglebin/score/score.hpp"
 #include "tanglebin/score/score_tubes.hpp"
 
@@ -17,6 +18,7 @@ struct ExperimentSettings {
   std::vector<Method> methods = tanglebin::methods();  ///< in the order of methods(), without duplicates
   std::vector<double> ratios;                          ///< ascending, each in (0, 1]
   ModelSettings model{};  ///< its seed is combined with each case's name; method and ratio are ignored
+  Scene scene{};          ///< what to tell the methods instead of what the recipe says
 };
 
 /// Identifies one run.
@@ -36,6 +38,11 @@ std::string case_sha256(const Dataset& dataset, const CaseId& id);
 /// The scene as known from the recipe of a case: the bin, the camera, and radius and segments of each kind of
 /// tube. Of kinds with the same radius, the one with the most segments counts; among these, the longest.
 KnownScene known_scene(const Recipe& recipe, const CaseId& id);
+
+/// The same, but with what `told` says instead, and with what that leaves open estimated from the case's
+/// cloud. The cloud is in the world frame, in metres, whatever `told` says. Throws InputError as resolve()
+/// does, naming the case's cloud.
+KnownScene known_scene(const Recipe& recipe, const CaseData& data, const CaseId& id, const Scene& told);
 
 /// Models the tubes of a run's case, with the known scene of its recipe. The model's seed depends only on
 /// (settings.model.seed, set, number of tubes, case). Throws InputError as model_tubes() does, naming the

@@ -46,9 +46,10 @@ std::string run_case(const Dataset& dataset, const ExperimentSettings& settings,
     return failed_case(dataset, settings, id, {FailureOf::scene, "no point of the cloud is on a tube"});
   }
   const std::string sha256 = case_sha256(dataset, id);
-  const KnownScene known = known_scene(recipe_of(dataset, id), id);
+  const Recipe recipe = recipe_of(dataset, id);
   return lines_of_runs(settings, id, [&](const RunId& run) -> Lines {
     try {
+      const KnownScene known = known_scene(recipe, data, id, settings.scene);
       const Clock::time_point start = Clock::now();
       const Model model = model_case(known, data, run, settings);
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();

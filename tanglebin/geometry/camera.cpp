@@ -92,14 +92,8 @@ std::optional<Vector2d> project(const Camera& camera, const Vector3d& point) {
 }
 
 std::optional<PixelPosition> pixel_of(const Camera& camera, const Vector3d& point) {
-  const std::optional<Vector2d> image = project(camera, point);
-  if (!image) return std::nullopt;
-  // A pixel extends half a pixel to each side of its centre.
-  const Vector2d from_corner = image->array() + 0.5;
-  const bool is_inside = from_corner.x() >= 0 && from_corner.y() >= 0 && from_corner.x() < camera.width &&
-                         from_corner.y() < camera.height;
-  if (!is_inside) return std::nullopt;
-  return PixelPosition{static_cast<int>(from_corner.x()), static_cast<int>(from_corner.y())};
+  const std::optional<SeenPixel> seen = seen_pixel(camera, point);
+  return seen ? std::optional(seen->pixel) : std::nullopt;
 }
 
 double depth_of(const Camera& camera, const Vector3d& point) {

@@ -71,6 +71,24 @@ std::optional<PixelPosition> pixel_of(const Camera& camera, const Eigen::Vector3
 /// Depth of a point (m, world frame) along the camera's z axis, m.
 double depth_of(const Camera& camera, const Eigen::Vector3d& point);
 
+/// A pixel, and the depth (m) of the point that projects to it.
+struct SeenPixel {
+  PixelPosition pixel;
+  double depth;
+};
+
+/// pixel_of() and depth_of() at once, inline: for many points.
+inline std::optional<SeenPixel> seen_pixel(const Camera& camera, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d p = camera.pose.linear().transpose() * (point - camera.pose.translation());
+  if (!(p.z() > 0)) return std::nullopt;
+  // A pixel extends half a pixel to each side of its centre.
+  const double u = camera.fx * p.x() / p.z() + camera.cx + 0.5;
+  const double v = camera.fy * p.y() / p.z() + camera.cy + 0.5;
+  const bool is_inside = u >= 0 && v >= 0 && u < camera.width && v < camera.height;
+  if (!is_inside) return std::nullopt;
+  return SeenPixel{{static_cast<int>(u), static_cast<int>(v)}, p.z()};
+}
+
 /// Throws InputError naming the invalid field under `scanner`.
 void validate(const Camera& camera);
 

@@ -11,7 +11,7 @@
 
 #include "tanglebin/base/error.hpp"
 
-// Internal to the room: input of read_ply(), read_pcd() and read_configuration().
+// Internal to the library: input of read_ply(), read_pcd() and read_configuration().
 namespace tanglebin::cloud_format {
 
 /// A cloud file that is being read: a text header, then text or binary data. May be a pipe. Uses memory only

@@ -309,7 +309,7 @@ void expect_padding(CloudInput& input) {
 
 PointCloud read_points(CloudInput& input, const Header& header) {
   const Encoding encoding = header.body == Body::ascii ? Encoding::ascii : Encoding::little_endian;
-  PointDecoder decoder(input, header.points, encoding, PointDecoder::Nan::kept);
+  PointDecoder decoder(input, header.points, encoding);
   if (header.body == Body::binary_compressed) {
     read_compressed(input, header.points, decoder);
   } else {

@@ -11,8 +11,8 @@ namespace tanglebin {
 /// Reads a PCD cloud, version 0.7 or 0.6: ascii, binary or binary_compressed. Fields x, y, z (F 4 or 8) may
 /// be in any order among others. Optional fields: `rgb`/`rgba` (packed, F 4 or U 4), `label` (I or U; PCL's
 /// invalid U 4 label is null), `normal_x` `normal_y` `normal_z` (F), `intensity` (any type) and `mixed` (I or
-/// U). As strict as read_ply(), but keeps NaN points, because organized clouds have them, and skips the zeros
-/// that PCL leaves after binary data. An identity VIEWPOINT means unknown.
+/// U). Keeps points that are NaN or infinite, and is as strict, as read_ply(), but skips the zeros that PCL
+/// leaves after binary data. An identity VIEWPOINT means unknown.
 PointCloud read_pcd(std::istream& in, const std::string& name);
 PointCloud read_pcd(const std::filesystem::path& file);
 

@@ -30,6 +30,8 @@ constexpr std::string_view vertex = "vertex";
 struct Header {
   std::optional<Encoding> encoding;
   std::vector<Element> elements;
+  std::optional<std::uint32_t> columns;  // of an organized cloud
+  std::optional<std::uint32_t> rows;
 };
 
 // ---- header
@@ -151,6 +153,14 @@ void add_format(const CloudInput& input, const Words& words, Header& header) {
   header.encoding = parse_format(input, words);
 }
 
+// PCL's and EpicEye's mark of an organized cloud, after Stanford's range grids: "obj_info num_cols 640". Any
+// other obj_info is free text.
+void note_grid(const Words& words, Header& header) {
+  if (words.size() != 3) return;
+  if (words[1] == "num_cols") header.columns = to_number<std::uint32_t>(words[2]);
+  if (words[1] == "num_rows") header.rows = to_number<std::uint32_t>(words[2]);
+}
+
 void expect_magic(CloudInput& input) {
   const auto line = input.next_line();
   if (!line) throw InputError(input.place_in_file(), "an empty file", "a PLY file");
@@ -194,8 +204,10 @@ Header read_header(CloudInput& input) {
       check_header(input, header);
       return header;
     }
-    if (keyword == "comment" || keyword == "obj_info") continue;
-    if (keyword == "format") {
+    if (keyword == "comment") continue;
+    if (keyword == "obj_info") {
+      note_grid(words, header);
+    } else if (keyword == "format") {
       add_format(input, words, header);
     } else if (keyword == "element") {
       add_element(input, words, header);
@@ -211,7 +223,7 @@ Header read_header(CloudInput& input) {
 // ---- body
 
 PointCloud read_vertices(CloudInput& input, Encoding encoding, const Element& vertices) {
-  PointDecoder decoder(input, vertices, encoding, PointDecoder::Nan::rejected);
+  PointDecoder decoder(input, vertices, encoding);
   decoder.reserve(input.remaining());
   read_records(input, encoding, vertices, [&](const Records& records) { decoder.add_records(records); });
   return decoder.take();
@@ -229,33 +241,35 @@ void expect_end(CloudInput& input, Encoding encoding) {
   }
 }
 
+// Range grids say how large they are too, but have vertices for the measured places only.
+void arrange(PointCloud& cloud, const Header& header) {
+  if (!header.columns || !header.rows || cloud.points.empty()) return;
+  if (std::size_t{*header.columns} * *header.rows != cloud.points.size()) return;
+  cloud.width = *header.columns;
+  cloud.height = *header.rows;
+}
+
 // ---- writing
 
-std::string header_of(const PointCloud& cloud) {
+std::string header_of(const PointCloud& cloud, std::string_view coordinates) {
+  const std::string grid = cloud.height > 1 ? fmt::format("obj_info num_cols {}\nobj_info num_rows {}\n",
+                                                          cloud.width, cloud.height)
+                                            : "";
   std::string header = fmt::format(
       "ply\n"
       "format binary_little_endian 1.0\n"
-      "comment Tanglebin: metres, world frame; label 0 bin, 1..n tubes, -1 null\n"
-      "element vertex {}\n"
+      "comment Tanglebin: {}; label 0 bin, 1..n tubes, -1 null\n"
+      "{}element vertex {}\n"
       "property float x\n"
       "property float y\n"
       "property float z\n",
-      cloud.points.size());
+      coordinates, grid, cloud.points.size());
   if (!cloud.normals.empty()) header += "property float nx\nproperty float ny\nproperty float nz\n";
   if (!cloud.colors.empty()) header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   if (!cloud.labels.empty()) header += "property int label\n";
   if (!cloud.intensities.empty()) header += "property float intensity\n";
   if (!cloud.mixed.empty()) header += "property uchar mixed\n";
   return header + "end_header\n";
-}
-
-void check_finite(const PointCloud& cloud) {
-  const auto bad =
-      std::ranges::find_if(cloud.points, [](const Eigen::Vector3f& p) { return !p.allFinite(); });
-  if (bad != cloud.points.end()) {
-    throw std::invalid_argument(
-        fmt::format("write_ply: point {} is not finite", std::distance(cloud.points.begin(), bad) + 1));
-  }
 }
 
 // Copies a value's bytes to `to`, and returns the position after them.
@@ -291,6 +305,7 @@ PointCloud read_ply(std::istream& in, const std::string& name) {
     }
   }
   expect_end(input, *header.encoding);
+  arrange(cloud, header);
   return cloud;
 }
 
@@ -299,10 +314,9 @@ PointCloud read_ply(const std::filesystem::path& file) {
   return read_ply(stream, file.string());
 }
 
-void write_ply(std::ostream& out, const PointCloud& cloud) {
+void write_ply(std::ostream& out, const PointCloud& cloud, std::string_view coordinates) {
   check_cloud(cloud);
-  check_finite(cloud);
-  std::string ply = header_of(cloud);
+  std::string ply = header_of(cloud, coordinates);
   const std::size_t header_size = ply.size();
   const std::size_t point_size = sizeof(Eigen::Vector3f) + size_of_one(cloud.normals) +
                                  size_of_one(cloud.colors) + size_of_one(cloud.labels) +

@@ -188,10 +188,6 @@ std::size_t read_binary_run(CloudInput& input, Encoding encoding, const Element&
 
 // ---- values
 
-std::string shown(double coordinate) {
-  return std::isnan(coordinate) ? "nan" : fmt::format("{}", coordinate);  // never "-nan"
-}
-
 // A value of the file as a label, if it is a valid one.
 template <class T>
 std::optional<std::int32_t> as_label(T value) {
@@ -283,12 +279,11 @@ void expect_no_more_lines(CloudInput& input) {
   }
 }
 
-PointDecoder::PointDecoder(const CloudInput& input, const Element& element, Encoding encoding, Nan nan)
+PointDecoder::PointDecoder(const CloudInput& input, const Element& element, Encoding encoding)
     : file_(input.file()),
       element_(element),
       order_(byte_order(encoding)),
-      first_line_(encoding == Encoding::ascii ? input.line() + 1 : 0),
-      nan_(nan) {}
+      first_line_(encoding == Encoding::ascii ? input.line() + 1 : 0) {}
 
 void PointDecoder::reserve(std::size_t bytes) {
   const std::size_t points =
@@ -361,16 +356,16 @@ void PointDecoder::decode(const Property& property, const Column& column) {
   }
 }
 
+// Points without a position, NaN or infinite, are kept in place.
 void PointDecoder::decode_coordinates(const Property& property, const Column& column, Eigen::Index axis) {
   Eigen::Vector3f* const points = cloud_.points.data();
-  const bool nan_kept = nan_ == Nan::kept;
   visit(property.type, [&]<class T>(std::type_identity<T>) {
     for_each_value<T>(column, order_, [&](std::size_t point, T value) {
       const auto coordinate = static_cast<float>(value);
-      if (!std::isfinite(coordinate) && !(nan_kept && std::isnan(coordinate))) {
-        throw InputError(place(property, point), shown(static_cast<double>(value)),
-                         nan_kept ? "a finite 32-bit floating-point number or nan"
-                                  : "a finite 32-bit floating-point number");
+      if constexpr (std::is_same_v<T, double>) {
+        if (std::isfinite(value) && !std::isfinite(coordinate))
+          throw InputError(place(property, point), fmt::format("{}", value),
+                           "a number in the range of 32-bit floating-point numbers, inf or nan");
       }
       points[point][axis] = coordinate;
     });

@@ -92,10 +92,8 @@ struct Column {
 /// Converts the values of a file into a cloud, and reports the position of bad values.
 class PointDecoder {
 public:
-  enum class Nan { rejected, kept };
-
   /// For the points of `element`, whose data comes next in `input`.
-  PointDecoder(const CloudInput& input, const Element& element, Encoding encoding, Nan nan);
+  PointDecoder(const CloudInput& input, const Element& element, Encoding encoding);
 
   /// Reserves memory for as many points as this number of bytes of binary data can hold.
   void reserve(std::size_t bytes);
@@ -130,7 +128,6 @@ private:
   const Element& element_;
   std::endian order_;
   std::size_t first_line_;  ///< of the points in an ascii file, which has one per line; 0 in a binary file
-  Nan nan_;
   PointCloud cloud_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/io/cloud_input.hpp"
+#include "tanglebin/io/depth_input.hpp"
 #include "tanglebin/io/pcd.hpp"
 #include "tanglebin/io/ply.hpp"
 
@@ -14,6 +15,8 @@ PointCloud read_cloud(std::istream& in, const std::string& name) {
   const std::string expected =
       "a PLY file, which begins with ply, or a PCD file, which begins with # or VERSION";
   const auto first = in.peek();
+  if (is_depth_image(in))
+    throw InputError({name, 0, ""}, "a depth image", "a cloud, or also the camera that makes one of it");
   if (first == end_of_file) throw InputError({name, 0, ""}, "an empty file", expected);
   if (first == 'p') return read_ply(in, name);
   if (first == '#' || first == 'V') return read_pcd(in, name);

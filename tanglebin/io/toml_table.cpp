@@ -17,6 +17,26 @@ namespace {
 constexpr std::int64_t int_min = std::numeric_limits<int>::min();
 constexpr std::int64_t int_max = std::numeric_limits<int>::max();
 
+// Keys and values are ASCII; comments do not matter. toml++ 3.3 runs into __builtin_unreachable at other
+// characters where TOML allows none; it rejects '?' there.
+std::string ascii(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) > 127; }, '?');
+  return text;
+}
+
+// The line of what validate() calls `field`, or else of the innermost table around it. An angle's key has its
+// unit.
+std::size_t line_of(const TomlSource& source, std::string field) {
+  while (!field.empty()) {
+    for (const char* unit : {"", "_deg"})
+      if (const std::size_t line = source.line(field + unit)) return line;
+    const std::size_t last = field.find_last_of(".[");
+    field.resize(last == std::string::npos ? 0 : last);
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::string real_text(double value) {
@@ -78,6 +98,26 @@ void TomlSource::take_lines(const std::string& path, const std::string& original
   for (const auto& [place, line] : lines_)
     if (place.starts_with(original)) copies.emplace(path + place.substr(original.size()), line);
   lines_.merge(copies);
+}
+
+toml::table parse_toml(const std::string& text, const std::string& name) {
+  try {
+    return toml::parse(ascii(text), name);
+  } catch (const toml::parse_error& error) {
+    // The description may quote the end of a line.
+    std::string problem(error.description());
+    std::ranges::replace_if(
+        problem, [](char c) { return c < ' '; }, ' ');
+    throw InputError({name, error.source().begin.line, ""}, problem);
+  }
+}
+
+void validate_at(const TomlSource& source, const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    throw InputError({source.file(), line_of(source, error.place().field), ""}, error.what());
+  }
 }
 
 TomlTable::TomlTable(const TomlSource& source, const toml::table& table, std::string path)
@@ -144,12 +184,21 @@ void TomlTable::get(std::string_view key, Eigen::Vector4d& values) const {
 }
 
 void TomlTable::get(std::string_view key, Eigen::Matrix3d& values) const {
+  get_rows(key, values);
+}
+
+void TomlTable::get(std::string_view key, Eigen::Matrix4d& values) const {
+  get_rows(key, values);
+}
+
+template <int Size>
+void TomlTable::get_rows(std::string_view key, Eigen::Matrix<double, Size, Size>& values) const {
   const auto found = value_of(key);
   if (!found) return;
-  const std::string expected = "an array of 3 rows";
+  const std::string expected = fmt::format("an array of {} rows", Size);
   const std::vector<Value> rows = elements(*found, expected);
-  if (rows.size() != 3) fail(*found, fmt::format("an array of {}", rows.size()), expected);
-  for (std::size_t i = 0; i < 3; ++i) values.row(static_cast<Eigen::Index>(i)) = vector<3>(rows[i]);
+  if (rows.size() != Size) fail(*found, fmt::format("an array of {}", rows.size()), expected);
+  for (std::size_t i = 0; i < Size; ++i) values.row(static_cast<Eigen::Index>(i)) = vector<Size>(rows[i]);
 }
 
 TomlTable TomlTable::table(std::string_view key) const {

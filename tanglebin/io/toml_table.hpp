@@ -16,6 +16,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
+
 namespace tanglebin {
 
 /// A number as a TOML float, in its shortest form: "1.0", "-0.0", "1e-05".
@@ -53,6 +55,23 @@ private:
   std::map<std::string, std::size_t> lines_;
 };
 
+/// Parses TOML. Bytes that are not ASCII count as '?'. Throws InputError with file and line.
+toml::table parse_toml(const std::string& text, const std::string& name);
+
+/// Calls `call`, which validates what was read, and adds the file, and the line of the field or else of the
+/// innermost table around it, to its InputError.
+void validate_at(const TomlSource& source, const std::function<void()>& call);
+
+/// Calls `call`, which looks up what a key's value names, and adds file and line to its InputError.
+template <typename Call>
+auto with_place(const std::string& file, std::size_t line, Call call) {
+  try {
+    return call();
+  } catch (const InputError& error) {
+    throw InputError({file, line, ""}, error.what());
+  }
+}
+
 /// Reads a table of a TOML tree strictly: every error is an InputError with the file, the line and the key's
 /// whole path. Refers to the source and the tree; they must outlive it.
 class TomlTable {
@@ -85,6 +104,7 @@ public:
   void get(std::string_view key, Eigen::Vector3d& values) const;
   void get(std::string_view key, Eigen::Vector4d& values) const;
   void get(std::string_view key, Eigen::Matrix3d& values) const;  ///< an array of rows
+  void get(std::string_view key, Eigen::Matrix4d& values) const;  ///< an array of rows
 
   /// The table under `key`; an empty one if there is none.
   TomlTable table(std::string_view key) const;
@@ -94,6 +114,9 @@ public:
 
   /// The tables of the array under `key`, if any.
   std::vector<TomlTable> tables(std::string_view key) const;
+
+  /// Is there a string under `key`?
+  bool is_string(std::string_view key) const { return has(key) && find(key)->is_string(); }
 
   /// Is there an array under `key`?
   bool is_array(std::string_view key) const { return has(key) && find(key)->is_array(); }
@@ -122,6 +145,8 @@ private:
   std::int64_t integer(const Value& value, std::int64_t least, std::int64_t most) const;
   template <int Size>
   Eigen::Matrix<double, Size, 1> vector(const Value& value) const;
+  template <int Size>
+  void get_rows(std::string_view key, Eigen::Matrix<double, Size, Size>& values) const;
   template <typename Type>
   const Type& as(const Value& value, const std::string& expected) const;
   [[noreturn]] void fail(const Value& value, const std::string& found, const std::string& expected) const;

@@ -19,26 +19,6 @@
 namespace tanglebin {
 namespace {
 
-// A recipe's keys and values are ASCII; comments do not matter. toml++ 3.3 runs into __builtin_unreachable
-// at other characters where TOML allows none; it rejects '?' there.
-std::string ascii(std::string text) {
-  std::ranges::replace_if(
-      text, [](char c) { return static_cast<unsigned char>(c) > 127; }, '?');
-  return text;
-}
-
-toml::table parse(const std::string& text, const std::string& name) {
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    // The description may quote the end of a line.
-    std::string problem(error.description());
-    std::ranges::replace_if(
-        problem, [](char c) { return c < ' '; }, ' ');
-    throw InputError({name, error.source().begin.line, ""}, problem);
-  }
-}
-
 // The words that stand for themselves in TOML.
 constexpr std::array<std::string_view, 4> toml_words{"true", "false", "inf", "nan"};
 
@@ -120,9 +100,9 @@ Recipe read_random(const toml::table& tree, const std::vector<PlacedNumber>& num
 Scanner scanner_with(const std::string& preset, const std::vector<std::string>& settings,
                      const std::string& option) {
   std::string text;
-  for (const std::string& setting : settings) text += toml_line(ascii(setting)) + '\n';
-  text += fmt::format("scanner.preset = {:?}\n", ascii(preset));
-  const toml::table tree = parse(text, option);
+  for (const std::string& setting : settings) text += toml_line(setting) + '\n';
+  text += fmt::format("scanner.preset = {:?}\n", preset);
+  const toml::table tree = parse_toml(text, option);
   const TomlSource source(option, tree);
   const TomlTable table(source, tree, "");
   table.allow({"scanner"});
@@ -135,9 +115,9 @@ Scanner scanner_with(const std::string& preset, const std::vector<std::string>& 
 }
 
 Recipe read_recipe(std::istream& in, const std::string& name) {
-  const std::string text = ascii(read_bytes(in, name));
+  const std::string text = read_bytes(in, name);
   if (in.bad()) throw InputError({name, 0, ""}, "cannot be read");
-  toml::table tree = parse(text, name);
+  toml::table tree = parse_toml(text, name);
   TomlSource source(name, tree);
   expect_known_format({source, tree, ""});
   inherit_tube(tree, source);

@@ -1,48 +1,20 @@
 #pragma once
 
 #include <array>
-#include <initializer_list>
-#include <numbers>
 #include <string_view>
 #include <tuple>
-#include <vector>
 
+#include "tanglebin/io/toml_camera.hpp"
+#include "tanglebin/io/toml_fields.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 
 // Internal to the room: the keys of a recipe and the members that they set. To read and write a new setting,
 // add a line here.
 namespace tanglebin {
 
-template <typename Struct, typename Value>
-struct Field {
-  const char* key;
-  Value Struct::*member;
-};
-template <typename Struct, typename Value>
-Field(const char*, Value Struct::*) -> Field<Struct, Value>;
-
-/// Degrees in the recipe, radians in the struct.
-template <typename Struct>
-struct AngleField {
-  const char* key;
-  double Struct::*member;
-};
-template <typename Struct>
-AngleField(const char*, double Struct::*) -> AngleField<Struct>;
-
 inline constexpr std::tuple bin_fields{
     Field{"length", &Bin::length}, Field{"width", &Bin::width},       Field{"height", &Bin::height},
     Field{"wall", &Bin::wall},     Field{"friction", &Bin::friction},
-};
-inline constexpr std::tuple camera_size_fields{
-    Field{"width", &Camera::width},
-    Field{"height", &Camera::height},
-};
-inline constexpr std::tuple camera_lens_fields{
-    Field{"fx", &Camera::fx},
-    Field{"fy", &Camera::fy},
-    Field{"cx", &Camera::cx},
-    Field{"cy", &Camera::cy},
 };
 inline constexpr std::tuple sensor_fields{
     Field{"sigma", &Sensor::sigma},
@@ -133,24 +105,6 @@ struct EdgesName {
 };
 inline constexpr std::array<EdgesName, 3> edges_names{
     {{Edges::keep, "keep"}, {Edges::drop, "drop"}, {Edges::mix, "mix"}}};
-
-inline double radians_from_degrees(double degrees) {
-  constexpr double radians_per_degree = std::numbers::pi / 180;
-  return degrees * radians_per_degree;
-}
-
-using Keys = std::vector<std::string_view>;
-
-template <typename... Fields>
-Keys keys(const std::tuple<Fields...>& fields) {
-  return std::apply([](const auto&... field) { return Keys{field.key...}; }, fields);
-}
-
-inline Keys all(std::initializer_list<Keys> lists) {
-  Keys result;
-  for (const Keys& list : lists) result.insert(result.end(), list.begin(), list.end());
-  return result;
-}
 
 /// The keys of [tube], and of a [set.tube] but for its weight.
 inline Keys tube_keys() {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 
 #include "tanglebin/io/toml_table.hpp"
@@ -19,9 +18,6 @@ void inherit_tube(toml::table& tree, TomlSource& source);
 
 /// Reads the one [scanner] of a recipe.
 Scanner read_single_scanner(const TomlTable& table);
-
-/// Calls `call`, which validates what was read, and adds file and line to its InputError.
-void validate_at(const TomlSource& source, const std::function<void()>& call);
 
 /// The inverse of read_tree(): every value, presets spelled out. Random numbers are tables { min, max } or
 /// { one_of }.

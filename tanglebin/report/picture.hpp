@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
-#include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/geometry/support.hpp"
 #include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/report/shading.hpp"
 #include "tanglebin/report/view.hpp"
@@ -12,8 +12,9 @@
 namespace tanglebin {
 
 /// A shaded picture of tubes, in label_colors(), in their bin, whose walls on the viewer's side are
-/// transparent. Throws InputError with `name` for tubes beyond farthest_in_picture, or for an invalid view.
-Picture picture_of_tubes(const std::vector<Tube>& tubes, const Bin& bin, const View& view,
+/// transparent, or on the part of a plane that is under them. Throws InputError with `name` for tubes beyond
+/// farthest_in_picture, for no tube and no bin, or for an invalid view.
+Picture picture_of_tubes(const std::vector<Tube>& tubes, const Support& support, const View& view,
                          const std::string& name);
 
 /// A shaded picture of a cloud as a surface, coloured by label_colors() if it has labels, or else by its own

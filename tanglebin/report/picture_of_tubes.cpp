@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/geometry/intersect.hpp"
 #include "tanglebin/report/palette.hpp"
 #include "tanglebin/report/picture.hpp"
@@ -16,19 +17,36 @@ using Eigen::Vector3d;
 constexpr Color floor_color{228, 230, 233};
 constexpr Color wall_color{220, 223, 228};
 
-AlignedBox3d bounding_box(const std::vector<Tube>& tubes, const Bin& bin) {
-  AlignedBox3d box;
-  for (const Tube& tube : tubes) box.extend(bounds(tube));
-  for (const AlignedBox3d& part : boxes(bin)) box.extend(part);
-  return box;
-}
-
 std::vector<Vector3d> corners(const AlignedBox3d& box) {
   constexpr int count = 8;
   std::vector<Vector3d> result;
   result.reserve(count);
   for (int i = 0; i < count; ++i) result.push_back(box.corner(static_cast<AlignedBox3d::CornerType>(i)));
   return result;
+}
+
+AlignedBox3d bounding_box(const std::vector<Tube>& tubes, const Support& support) {
+  AlignedBox3d box;
+  for (const Tube& tube : tubes) box.extend(bounds(tube));
+  for (const AlignedBox3d& part : solid_parts(support)) {
+    for (const Vector3d& corner : corners(part)) box.extend(support.pose * corner);
+  }
+  return box;
+}
+
+constexpr double no_height = 1e-9;  // m, of walls that are not seen
+
+/// The part of a plane under the tubes: the floor of a bin without walls.
+Support floor_under(std::vector<Tube> tubes, const Support& plane) {
+  AlignedBox3d box(Vector3d::Zero());
+  const Eigen::Isometry3d from_world = plane.pose.inverse();
+  for (Tube& tube : tubes) {
+    transform(tube, from_world);
+    box.extend(bounds(tube));
+  }
+  Support floor{.bin = {.length = box.sizes().x(), .width = box.sizes().y(), .height = no_height}};
+  floor.pose = plane.pose * Eigen::Translation3d(box.center().x(), box.center().y(), 0);
+  return floor;
 }
 
 std::vector<Color> colors_of(const std::vector<Tube>& tubes, const std::string& name) {
@@ -40,10 +58,10 @@ std::vector<Color> colors_of(const std::vector<Tube>& tubes, const std::string& 
 }
 
 /// The tubes and the floor, without walls.
-SurfaceImage draw_tubes(const std::vector<Tube>& tubes, const std::vector<Color>& colors, Bin bin,
+SurfaceImage draw_tubes(const std::vector<Tube>& tubes, const std::vector<Color>& colors, Support support,
                         const Camera& camera) {
-  bin.height = 1e-9;  // invisibly low walls
-  const Scan seen = scan(tubes, bin, camera);
+  support.bin.height = no_height;
+  const Scan seen = scan(tubes, support, camera);
   SurfaceImage image(camera);
   auto pixel = seen.pixels.begin();
   for (int v = seen.window.top; v < seen.window.top + seen.window.height; ++v) {
@@ -64,10 +82,11 @@ bool is_on_viewers_side(const AlignedBox3d& wall, const Camera& camera) {
 }
 
 /// Adds the walls; those on the viewer's side are transparent.
-void draw_walls(const Bin& bin, SurfaceImage& image) {
-  const Camera& camera = image.camera;
+void draw_walls(const Support& support, SurfaceImage& image) {
+  Camera camera = image.camera;
+  camera.pose = support.pose.inverse() * camera.pose;  // the walls are aligned in the bin's frame
   const Vector3d optical_axis = camera.pose.linear().col(2);
-  const std::array<AlignedBox3d, 5> parts = boxes(bin);  // the floor and four walls
+  const std::array<AlignedBox3d, 5> parts = boxes(support.bin);  // the floor and four walls
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
       const Ray ray = ray_through(camera, u, v);
@@ -82,7 +101,7 @@ void draw_walls(const Bin& bin, SurfaceImage& image) {
           sample.glass = std::max(sample.glass, wall);
         } else {
           sample = {.depth = depth,
-                    .normal = hit->normal.cast<float>(),
+                    .normal = (support.pose.linear() * hit->normal).cast<float>(),
                     .color = wall_color,
                     .object = bin_label,
                     .glass = sample.glass};
@@ -94,12 +113,15 @@ void draw_walls(const Bin& bin, SurfaceImage& image) {
 
 }  // namespace
 
-Picture picture_of_tubes(const std::vector<Tube>& tubes, const Bin& bin, const View& view,
+Picture picture_of_tubes(const std::vector<Tube>& tubes, const Support& support, const View& view,
                          const std::string& name) {
   validate(view);
-  const Camera camera = camera_for(view, supersampling, corners(bounding_box(tubes, bin)), name);
-  SurfaceImage image = draw_tubes(tubes, colors_of(tubes, name), bin, camera);
-  draw_walls(bin, image);
+  const Support shown = support.shape == Support::Shape::plane ? floor_under(tubes, support) : support;
+  const AlignedBox3d box = bounding_box(tubes, shown);
+  if (box.isEmpty()) throw InputError({name, 0, ""}, "no tubes", "at least one, or a bin to draw");
+  const Camera camera = camera_for(view, supersampling, corners(box), name);
+  SurfaceImage image = draw_tubes(tubes, colors_of(tubes, name), shown, camera);
+  if (shown.shape == Support::Shape::bin) draw_walls(shown, image);
   return shade(image);
 }
 

@@ -63,8 +63,8 @@ PointCloud labelled_of(const PointCloud& cloud, const Model& model) {
 
 }  // namespace
 
-std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const PaperModel& steps, const Bin& bin,
-                                            double radius, const std::string& name) {
+std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const PaperModel& steps,
+                                            const Support& support, double radius, const std::string& name) {
   std::vector<NamedPicture> pictures;
   if (steps.filtered.points.empty()) return pictures;
   const View view = nearly_from_above();
@@ -73,21 +73,21 @@ std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const Paper
   if (steps.cylinders.empty()) return pictures;
   std::vector<Tube> cylinders;
   for (const JoinedTube& alone : joined_tubes(steps.cylinders, {}, radius)) cylinders.push_back(alone.tube);
-  pictures.push_back({"3-fitted", picture_of_tubes(cylinders, bin, view, name)});
-  pictures.push_back({"4-joined", picture_of_tubes(steps.model.tubes, bin, view, name)});
+  pictures.push_back({"3-fitted", picture_of_tubes(cylinders, support, view, name)});
+  pictures.push_back({"4-joined", picture_of_tubes(steps.model.tubes, support, view, name)});
   pictures.push_back({"5-labelled", picture_of_cloud(labelled_of(cloud, steps.model), view, name)});
   return pictures;
 }
 
-std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const AxisModel& steps, const Bin& bin,
-                                            const std::string& name) {
+std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const AxisModel& steps,
+                                            const Support& support, const std::string& name) {
   std::vector<NamedPicture> pictures;
   if (steps.model.tubes.empty()) return pictures;
   const View view = nearly_from_above();
   pictures.push_back(
       {"1-filtered", picture_of_cloud(cloud_of(picked(cloud.points, steps.model.filtered)), view, name)});
   pictures.push_back({"2-votes", picture_of_cloud(fragments_of(steps), view, name)});
-  pictures.push_back({"3-joined", picture_of_tubes(steps.model.tubes, bin, view, name)});
+  pictures.push_back({"3-joined", picture_of_tubes(steps.model.tubes, support, view, name)});
   pictures.push_back({"4-labelled", picture_of_cloud(labelled_of(cloud, steps.model), view, name)});
   return pictures;
 }

@@ -29,7 +29,7 @@ std::string draw_example(const Example& example, const std::filesystem::path& di
                          const Dataset& dataset, const ExperimentSettings& settings) {
   const RunId& run = example.result.run;
   const CaseData data = read_case(dataset, run.scene);
-  const KnownScene known = known_scene(recipe_of(dataset, run.scene), run.scene);
+  const KnownScene known = known_scene(recipe_of(dataset, run.scene), data, run.scene, settings.scene);
   const ComparedClouds clouds = compared_clouds(data, model_case(known, data, run, settings));
   const std::string name = fmt::format("pictures/{}-{}", name_of(run.method), example.rank);
   const std::string truth = name + "-truth.png";

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "tanglebin/base/random.hpp"
 #include "tanglebin/scan/measure.hpp"
@@ -57,6 +58,37 @@ std::uint64_t seed_of_scanner(std::uint64_t scene_seed, std::string_view scanner
   return scanner.empty() ? scene_seed : attempt_seed(scene_seed, scanner, 0, 0, 0);
 }
 
+Scan measured_scan(const Surfaces& surfaces, const Camera& camera, const Sensor& sensor,
+                   std::uint64_t scene_seed, std::string_view scanner) {
+  validate(camera);
+  validate(sensor);
+  Scan ideal = ideal_scan(surfaces, camera, ray_margin(sensor));
+  if (is_ideal(sensor)) return ideal;
+  return measure(surfaces, std::move(ideal), sensor, {scene_seed, seed_of_scanner(scene_seed, scanner)});
+}
+
+// The boxes are aligned in the support's frame.
+std::vector<Eigen::AlignedBox3d> bounded_parts(const Support& support) {
+  const Eigen::AlignedBox3d seen(Vector3d::Constant(-scanned_plane), Vector3d::Constant(scanned_plane));
+  std::vector<Eigen::AlignedBox3d> parts = solid_parts(support);
+  for (Eigen::AlignedBox3d& part : parts) part = part.intersection(seen);
+  return parts;
+}
+
+std::vector<Tube> moved(std::vector<Tube> tubes, const Eigen::Isometry3d& motion) {
+  for (Tube& tube : tubes) transform(tube, motion);
+  return tubes;
+}
+
+Scan moved(Scan scan, const Eigen::Isometry3d& motion, const Camera& camera) {
+  scan.camera = camera;
+  for (Pixel& pixel : scan.pixels) {
+    pixel.point = (motion * pixel.point.cast<double>()).cast<float>();
+    pixel.normal = (motion.linear() * pixel.normal.cast<double>()).cast<float>();
+  }
+  return scan;
+}
+
 }  // namespace
 
 Scan scan(const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera) {
@@ -66,12 +98,24 @@ Scan scan(const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera) 
 
 Scan scan(const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera, const Sensor& sensor,
           std::uint64_t scene_seed, std::string_view scanner) {
-  validate(camera);
-  validate(sensor);
-  const Surfaces surfaces = surfaces_of(tubes, bin);
-  Scan ideal = ideal_scan(surfaces, camera, ray_margin(sensor));
-  if (is_ideal(sensor)) return ideal;
-  return measure(surfaces, std::move(ideal), sensor, {scene_seed, seed_of_scanner(scene_seed, scanner)});
+  return measured_scan(surfaces_of(tubes, bin), camera, sensor, scene_seed, scanner);
+}
+
+Scan scan(const std::vector<Tube>& tubes, const Support& support, const Camera& camera) {
+  return scan(tubes, support, camera, Sensor{}, 0);
+}
+
+Scan scan(const std::vector<Tube>& tubes, const Support& support, const Camera& camera, const Sensor& sensor,
+          std::uint64_t scene_seed, std::string_view scanner) {
+  const std::vector<Eigen::AlignedBox3d> parts = bounded_parts(support);
+  if (support.pose.matrix() == Eigen::Matrix4d::Identity())
+    return measured_scan(surfaces_of(tubes, parts), camera, sensor, scene_seed, scanner);
+  const Eigen::Isometry3d from_world = support.pose.inverse();
+  Camera seen_from = camera;
+  seen_from.pose = from_world * camera.pose;
+  return moved(
+      measured_scan(surfaces_of(moved(tubes, from_world), parts), seen_from, sensor, scene_seed, scanner),
+      support.pose, camera);
 }
 
 }  // namespace tanglebin

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/geometry/support.hpp"
 #include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/scan/scan.hpp"
 #include "tanglebin/scan/sensor.hpp"
@@ -20,6 +21,15 @@ Scan scan(const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera);
 /// the seed and the scanner's name, separately for each term and pixel. Throws InputError as validate(camera)
 /// and validate(sensor) do.
 Scan scan(const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera, const Sensor& sensor,
+          std::uint64_t scene_seed, std::string_view scanner = "");
+
+/// How far a plane reaches from its origin in the scans of it, along its x and y, m.
+inline constexpr double scanned_plane = 10;
+
+/// Scans of tubes in or on any support, of which the scanner sees a bin's boxes, a plane up to scanned_plane,
+/// or nothing. The support is valid. Everything is in the world frame.
+Scan scan(const std::vector<Tube>& tubes, const Support& support, const Camera& camera);
+Scan scan(const std::vector<Tube>& tubes, const Support& support, const Camera& camera, const Sensor& sensor,
           std::uint64_t scene_seed, std::string_view scanner = "");
 
 }  // namespace tanglebin

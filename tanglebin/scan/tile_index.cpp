@@ -38,7 +38,7 @@ constexpr double rounding = 1e-9;  // m
 
 /// Thickens the boxes so that the central ray of a beam meets one wherever a ray of the beam meets the true
 /// one, and no later.
-std::array<AlignedBox3d, 5> thickened(std::array<AlignedBox3d, 5> boxes, const BeamShape& beam) {
+std::vector<AlignedBox3d> thickened(std::vector<AlignedBox3d> boxes, const BeamShape& beam) {
   for (AlignedBox3d& box : boxes) {
     const double farthest = (box.center() - beam.origin).norm() + box.diagonal().norm() / 2;
     const Vector3d margin = Vector3d::Constant(farthest * (beam.spread + rounding));
@@ -69,8 +69,8 @@ bool lie_outside_of_a_face(const AlignedBox3d& box, const Vector3d& a, const Vec
 
 }  // namespace
 
-Surfaces surfaces_of(const std::vector<Tube>& tubes, const Bin& bin) {
-  Surfaces surfaces{.boxes = boxes(bin), .capsules = {}, .labels = {}};
+Surfaces surfaces_of(const std::vector<Tube>& tubes, std::vector<AlignedBox3d> boxes) {
+  Surfaces surfaces{.boxes = std::move(boxes), .capsules = {}, .labels = {}};
   for (const Tube& tube : tubes) {
     for (const Capsule& capsule : capsules(tube)) {
       surfaces.capsules.push_back(capsule);
@@ -80,9 +80,15 @@ Surfaces surfaces_of(const std::vector<Tube>& tubes, const Bin& bin) {
   return surfaces;
 }
 
+Surfaces surfaces_of(const std::vector<Tube>& tubes, const Bin& bin) {
+  const auto parts = boxes(bin);
+  return surfaces_of(tubes, {parts.begin(), parts.end()});
+}
+
 PixelWindow window_of(const Surfaces& surfaces, const Camera& camera, double margin) {
   constexpr int corners = 8;
   const AlignedBox3d box = bounding_box(surfaces);
+  if (box.isEmpty()) return {};
   Eigen::AlignedBox2d projection;
   int behind = 0;
   for (int corner = 0; corner < corners; ++corner) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -18,13 +17,14 @@ namespace tanglebin {
 
 // Internal to the room: what the rays of a scene can hit, with a lookup for many rays at once.
 
-/// The capsules of all tubes and the boxes of the bin.
+/// The capsules of all tubes and the boxes of the bin, all bounded.
 struct Surfaces {
-  std::array<Eigen::AlignedBox3d, 5> boxes;
+  std::vector<Eigen::AlignedBox3d> boxes;
   std::vector<Capsule> capsules;
   std::vector<std::int32_t> labels;  ///< of the capsules
 };
 
+Surfaces surfaces_of(const std::vector<Tube>& tubes, std::vector<Eigen::AlignedBox3d> boxes);
 Surfaces surfaces_of(const std::vector<Tube>& tubes, const Bin& bin);
 
 /// The window of pixels onto which the scene projects, enlarged by `margin` pixels. The whole image if the
@@ -71,7 +71,7 @@ private:
   BeamShape beam_;  ///< of a tile's rays
   CapsuleIndex capsule_index_;
   std::vector<Capsule> thick_capsules_;  ///< thickened for the beam, as are the boxes
-  std::array<Eigen::AlignedBox3d, 5> thick_boxes_;
+  std::vector<Eigen::AlignedBox3d> thick_boxes_;
 };
 
 }  // namespace tanglebin

@@ -22,9 +22,18 @@ namespace {
 
 using ColorLabels = std::map<Color, std::int32_t>;
 
-std::vector<std::int32_t> number_colors(const std::vector<Color>& colors, ColorLabels label_of) {
+// Many colours are a picture's, and stand for no tubes.
+constexpr std::size_t most_colors = 2000;
+
+std::vector<std::int32_t> number_colors(const std::vector<Color>& colors, ColorLabels label_of,
+                                        const std::string& file) {
+  const std::set<Color> distinct(colors.begin(), colors.end());
+  if (distinct.size() > most_colors)
+    throw InputError(
+        {file, 0, ""}, fmt::format("no labels, but {} colours", distinct.size()),
+        fmt::format("a label for each point, or at most {} colours, one for each tube", most_colors));
   std::int32_t next_label = 1;
-  for (const Color& color : std::set<Color>(colors.begin(), colors.end())) {
+  for (const Color& color : distinct) {
     if (label_of.try_emplace(color, next_label).second) ++next_label;
   }
   std::vector<std::int32_t> labels;
@@ -36,7 +45,7 @@ std::vector<std::int32_t> number_colors(const std::vector<Color>& colors, ColorL
 std::vector<std::int32_t> labels_of(const PointCloud& cloud, const ColorLabels& known_colors,
                                     const std::string& file) {
   if (cloud.labels.size() == cloud.points.size()) return cloud.labels;
-  if (cloud.colors.size() == cloud.points.size()) return number_colors(cloud.colors, known_colors);
+  if (cloud.colors.size() == cloud.points.size()) return number_colors(cloud.colors, known_colors, file);
   throw InputError({file, 0, ""}, "neither labels nor colours", "a label or a colour for each point");
 }
 

@@ -73,7 +73,7 @@ bool is_hopeless(const std::vector<Rejection>& rejections, int attempts) {
 
 }  // namespace
 
-Scene simulate(const Recipe& recipe, const CaseId& id, const std::function<void()>& before_attempt) {
+SimulatedScene simulate(const Recipe& recipe, const CaseId& id, const std::function<void()>& before_attempt) {
   const SetRecipe& set = set_named(recipe, id.set);
   StageTimes times;
   std::vector<Rejection> rejections;

@@ -28,7 +28,7 @@ struct StageTimes {
 };
 
 /// A valid scene: tubes at rest in the bin, and the scans of them.
-struct Scene {
+struct SimulatedScene {
   std::vector<Tube> tubes;
   Scan scan;                        ///< by the recipe's first scanner
   std::vector<Scan> further_scans;  ///< by its further scanners
@@ -45,7 +45,7 @@ struct Scene {
 /// so the text format stores the scene exactly. Throws InputError with the reasons after recipe.attempts
 /// failures, or after a quarter of them if a tube left the bin in each: more tubes than fit. Calls
 /// `before_attempt` before each attempt; what it throws ends the simulation.
-Scene simulate(
+SimulatedScene simulate(
     const Recipe& recipe, const CaseId& id, const std::function<void()>& before_attempt = [] {});
 
 }  // namespace tanglebin

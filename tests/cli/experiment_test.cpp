@@ -66,6 +66,21 @@ TEST_F(ExperimentCommand, ModelsOnlyTheCasesAskedForAndGoesOnLater) {
   EXPECT_EQ(second.at("micro_recall").at(1).at("cases"), 2);
 }
 
+TEST_F(ExperimentCommand, TellsTheMethodsWhatASceneFileSays) {
+  write_bytes(path("scene.toml"), "[[tube]]\nradius = 0.0125\n");
+  const std::string options = "--cases 1 --tubes 1 --downsample 1 ";
+  const ProgramResult run = experiment(options + "--scene " + path("scene.toml"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto told = nlohmann::json::parse(bytes_of(path("results/experiment.json")));
+  EXPECT_EQ(told.at("scene"), "[[tube]]\nradius = 0.0125\n");
+  const ProgramResult other = experiment(options);
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("scene: the directory belongs to another experiment"));
+  // The bin is not of this size: no point of the tube is in it.
+  write_bytes(path("small.toml"), "[support]\nshape = \"bin\"\nlength = 0.03\nwidth = 0.03\nheight = 0.02\n");
+  EXPECT_NE(experiment(options + "--scene " + path("small.toml"), "small").out, run.out);
+}
+
 TEST_F(ExperimentCommand, TakesRatiosAsAListOrARange) {
   experiment("--cases 1 --tubes 1 --downsample 1,0.3,0.25", "list");
   EXPECT_EQ(ratios_of("list"), "[0.25,0.3,1.0]");

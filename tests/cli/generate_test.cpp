@@ -101,6 +101,24 @@ TEST_F(Generate, ADryRunShowsTheFirstCase) {
   EXPECT_THAT(bytes_of(directory_ / "b.png"), StartsWith("\x89PNG"));
 }
 
+TEST_F(Generate, ADryRunsPictureHasStandardOutputToItself) {
+  const auto result = run_program("generate " + recipe_.string() + " --dry-run --set B --picture -");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, StartsWith("\x89PNG"));
+  EXPECT_THAT(result.err, HasSubstr("warning: scanner: a tube of set A"));
+}
+
+TEST_F(Generate, RefusesWhatItCannotUseBeforeItBegins) {
+  const auto picture = run_program("generate " + recipe_.string() + " --dry-run --picture b.jpg");
+  EXPECT_EQ(picture.status, 2);
+  EXPECT_EQ(picture.err, "tanglebin: --picture: found 'b.jpg', expected a name that ends in .png\n");
+  for (const std::string limit : {"0", "nan", "1e10", "soon"}) {
+    const auto result = run_program(command("--case-limit " + limit));
+    EXPECT_EQ(result.status, 64) << limit;
+    EXPECT_THAT(result.err, HasSubstr("expected a number from 0.001 to 1000000000")) << limit;
+  }
+}
+
 TEST_F(Generate, NeedsADirectoryUnlessItIsADryRun) {
   const auto without = run_program("generate " + recipe_.string());
   EXPECT_EQ(without.status, 64);

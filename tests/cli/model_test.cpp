@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/images.hpp"
 #include "tanglebin/io/pcd.hpp"
 #include "tanglebin/io/ply.hpp"
 #include "tanglebin/io/read_cloud.hpp"
@@ -16,6 +17,7 @@
 #include "tanglebin/score/score.hpp"
 #include "tests/model/scene/scanned.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/recipe_text.hpp"
 
 namespace tanglebin {
 namespace {
@@ -45,8 +47,13 @@ protected:
     test::write_bytes(directory_ / name, bytes);
   }
   ProgramResult model(const std::string& cloud, const std::string& options) const {
+    return run_program("model " + path(cloud) + paper + " --out " + path("labelled.ply") + " " + options);
+  }
+  ProgramResult model_without_scene(const std::string& cloud, const std::string& options) const {
     return run_program("model " + path(cloud) + " --out " + path("labelled.ply") + " " + options);
   }
+
+  static inline const std::string paper = " --scene " TANGLEBIN_SOURCE "/scenes/paper.toml";
 
   std::vector<Tube> tubes_ = {
       test::chain(1, 0.0125, {{-0.2, 0, 0.0125}, {0, 0.02, 0.0125}, {0.2, 0, 0.0125}}),
@@ -85,7 +92,7 @@ TEST_F(ModelCommand, PrintsItsStepsAsJson) {
 }
 
 TEST_F(ModelCommand, ReadsAPipeAndWritesOne) {
-  const ProgramResult run = run_program("model - --out -", ply_of(scan_));
+  const ProgramResult run = run_program("model - --out -" + paper, ply_of(scan_));
   ASSERT_EQ(run.status, 0) << run.err;
   std::istringstream in(run.out);
   EXPECT_EQ(read_cloud(in, "output").points, scan_.points);
@@ -98,20 +105,45 @@ TEST_F(ModelCommand, PrintsNothingBesideTubesOnStandardOutput) {
   EXPECT_EQ(read_configuration(in, "output").size(), 2U);
 }
 
-TEST_F(ModelCommand, KeepsAnOrganizedCloudOrganizedInPcdAndDropsItsHolesInPly) {
+TEST_F(ModelCommand, KeepsAnOrganizedCloudWithItsHoles) {
   const KnownScene scene = test::paper_scene();
   const PointCloud organized =
       organized_cloud_from_scan(scan(tubes_, scene.support.bin, scene.camera), CloudOf::tubes_and_bin, 2);
-  std::ostringstream pcd;
-  write_pcd(pcd, organized);
-  write("scan.pcd", pcd.str());
-  ASSERT_EQ(model("scan.pcd", "").status, 0);
-  EXPECT_EQ(read_cloud(directory_ / "labelled.ply").points, scan_.points);
-  const std::string out = path("labelled.pcd");
-  ASSERT_EQ(run_program("model " + path("scan.pcd") + " --out " + out).status, 0);
-  const PointCloud labelled = read_cloud(std::filesystem::path(out));
-  EXPECT_EQ(labelled.width, organized.width);
-  EXPECT_EQ(labelled.height, organized.height);
+  write("scan.pcd", [&] {
+    std::ostringstream pcd;
+    write_pcd(pcd, organized);
+    return pcd.str();
+  }());
+  for (const std::string out : {"labelled.ply", "labelled.pcd"}) {
+    ASSERT_EQ(run_program("model " + path("scan.pcd") + paper + " --out " + path(out)).status, 0);
+    const PointCloud labelled = read_cloud(directory_ / out);
+    EXPECT_EQ(labelled.width, organized.width);
+    EXPECT_EQ(labelled.height, organized.height);
+    for (std::size_t i = 0; i < organized.points.size(); ++i) {
+      const bool is_there = organized.points[i].allFinite();
+      ASSERT_EQ(labelled.points[i].allFinite(), is_there) << i;
+      if (!is_there) {
+        ASSERT_EQ(labelled.labels[i], null_label) << i;
+      }
+    }
+  }
+}
+
+TEST_F(ModelCommand, KeepsWhatTheScannerMeasuredAndItsColours) {
+  PointCloud measured = scan_;
+  measured.labels.clear();
+  for (std::size_t i = 0; i < measured.points.size(); ++i) {
+    measured.colors[i] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i / 256), 99};
+    measured.intensities.push_back(static_cast<float>(i));
+    measured.normals.emplace_back(0, 0, 1);
+  }
+  write("measured.ply", ply_of(measured));
+  ASSERT_EQ(model("measured.ply", "").status, 0);
+  const PointCloud labelled = read_cloud(directory_ / "labelled.ply");
+  EXPECT_EQ(labelled.colors, measured.colors);
+  EXPECT_EQ(labelled.intensities, measured.intensities);
+  EXPECT_EQ(labelled.normals, measured.normals);
+  EXPECT_GT(score(scan_.labels, labelled.labels).micro_recall, 0.98);
 }
 
 TEST_F(ModelCommand, DrawsWhatEachStepLeft) {
@@ -143,12 +175,12 @@ TEST_F(ModelCommand, EstimatesTheRadius) {
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_NEAR(json.at("radii").at(0), 0.0125, 0.02 * 0.0125);
   EXPECT_EQ(json.at("tubes"), 2);
-  EXPECT_THAT(model("scan.ply", "--radius auto").out, HasSubstr("radius    0.012"));
+  EXPECT_THAT(run.err, HasSubstr("the radius is estimated: 0.012"));
 
   write("empty.ply", ply_of(test::scanned({})));
   const ProgramResult nothing = model("empty.ply", "--radius auto");
   EXPECT_EQ(nothing.status, 2);
-  EXPECT_THAT(nothing.err, HasSubstr("radius: the cloud shows too little of a tube"));
+  EXPECT_THAT(nothing.err, HasSubstr("radius: "));
 }
 
 TEST_F(ModelCommand, TakesTubesOfSeveralRadiiAndLengths) {
@@ -173,7 +205,8 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
   write("mm.ply", ply_of(millimetres));
   const std::vector<std::pair<ProgramResult, std::string>> refusals = {
       {model("mm.ply", ""), "millimetres?"},
-      {model("scan.ply", "--radius 8"), "radius: found 8 m, expected less than 0.185 m"},
+      {model("scan.ply", "--radius 8"), "radius: found 8 m, expected 0.0001 to 1 m; for 8 mm write 0.008"},
+      {model("scan.ply", "--radius 0.2"), "radius: found 0.2 m, expected less than 0.185 m"},
       {model("scan.ply", "--length 80"), "length: found 80 m, expected at most 6.92 m"},
       {model("scan.ply", "--downsample 0.1,0.2"), "--downsample: found 2 ratios, expected one"},
       {model("scan.ply", "--modelled-tubes tubes.ply"),
@@ -195,7 +228,14 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
        "--tree: found 2 trees, expected one, or one for each radius: 1"},
       {model("scan.ply", "--radius 0.01,0.02 --method paper"),
        "method: the paper's method handles a single radius"},
-      {model("scan.ply", "--bin bucket"), "bucket"},
+      {model_without_scene("scan.ply", ""),
+       "scan.ply: camera: found neither the camera's intrinsics nor an organized cloud, which shows them, "
+       "expected "
+       "--camera FILE"},
+      {model_without_scene("scan.ply", "--scene bucket.toml"), "--scene: found 'bucket.toml', nothing"},
+      {model("scan.ply", "--frame robot"), "--frame: found 'robot', expected camera or world"},
+      {model("scan.ply", "--unit cm"), "--unit: found 'cm', expected m or mm"},
+      {model("scan.ply", "--camera nowhere.json"), "nowhere.json: cannot be opened"},
       {model("nowhere.ply", ""), "nowhere.ply"},
   };
   for (const auto& [run, message] : refusals) {
@@ -204,6 +244,90 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
   }
   EXPECT_FALSE(std::filesystem::exists(directory_ / "labelled.ply"));
   EXPECT_EQ(run_program("model " + path("scan.ply")).status, 64);
+}
+
+TEST_F(ModelCommand, FindsOutWhatAnOrganizedCloudShows) {
+  const KnownScene scene = test::paper_scene();
+  const PointCloud organized =
+      organized_cloud_from_scan(scan(tubes_, scene.support.bin, scene.camera), CloudOf::tubes, 2);
+  std::ostringstream pcd;
+  write_pcd(pcd, organized);
+  write("scan.pcd", pcd.str());
+  const ProgramResult run = model_without_scene("scan.pcd", "--radius 0.0125 --json");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out).at("tubes"), 2);
+  for (const char* note :
+       {"VIEWPOINT", "in the world frame", "fitted to the organized cloud", "a bin or a floor"})
+    EXPECT_THAT(run.err, HasSubstr(note));
+}
+
+TEST_F(ModelCommand, TakesACameraFileAndACloudInMillimetresInTheCamerasFrame) {
+  const Camera camera = test::paper_scene().camera;
+  PointCloud seen = scan_;
+  for (Eigen::Vector3f& point : seen.points)
+    point = (1000 * (camera.pose.inverse() * point.cast<double>())).cast<float>();
+  write("seen.ply", ply_of(seen));
+  write("camera.json", camera_json(camera));
+  write("scene.toml",
+        "[support]\nshape = \"bin\"\npreset = \"paper\"\n[[tube]]\nradius = 0.0125\nlength = 0.5\n");
+  const ProgramResult run =
+      model_without_scene("seen.ply", "--scene " + path("scene.toml") + " --camera " + path("camera.json") +
+                                          " --frame camera --unit mm");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const PointCloud labelled = read_cloud(directory_ / "labelled.ply");
+  EXPECT_EQ(labelled.points, seen.points);  // as they came
+  EXPECT_GT(score(scan_.labels, labelled.labels).micro_recall, 0.99);
+}
+
+TEST_F(ModelCommand, TakesADepthImageWithItsCamera) {
+  const KnownScene scene = test::paper_scene();
+  const Scan seen = scan(tubes_, scene.support.bin, scene.camera);
+  write("depth.png", depth_png(depth_image(seen)));
+  write("camera.json", camera_json(scene.camera));
+  write("scene.toml",
+        "[support]\nshape = \"bin\"\npreset = \"paper\"\n[[tube]]\nradius = 0.0125\nlength = 0.5\n");
+  const std::string options = "--scene " + path("scene.toml") + " --camera " + path("camera.json");
+  const ProgramResult run = model_without_scene("depth.png", options);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const PointCloud labelled = read_cloud(directory_ / "labelled.ply");
+  EXPECT_EQ(labelled.points.size(), 1920U * 1200U);
+  const PointCloud truth = organized_cloud_from_scan(seen, CloudOf::tubes_and_bin, 2);
+  EXPECT_GT(score(truth.labels, labelled.labels).micro_recall, 0.98);
+
+  EXPECT_THAT(model_without_scene("depth.png", "--scene " + path("scene.toml")).err,
+              HasSubstr("depth.png: camera: found a depth image, and nothing of the camera that took it"));
+  write("ros.yaml", "width: 1920\nheight: 1200\nk: [1372, 0, 959.5, 0, 1372, 599.5, 0, 0, 1]\n");
+  EXPECT_THAT(
+      model_without_scene("depth.png", "--camera " + path("ros.yaml")).err,
+      HasSubstr("depth_scale: found nothing that says what the image's numbers are, expected --unit mm"));
+  write("small.yaml", "width: 960\nheight: 600\nk: [686, 0, 479.5, 0, 686, 299.5, 0, 0, 1]\n");
+  EXPECT_THAT(model_without_scene("depth.png", "--unit mm --camera " + path("small.yaml")).err,
+              HasSubstr("depth.png: "));
+}
+
+TEST_F(ModelCommand, TakesTheSceneOfADatasetsCase) {
+  const std::string recipe = test::recipe_text({.seed = 3, .width = 480, .tubes = "[2]", .cases = 1}) +
+                             "[bin]\nlength = 0.7\nwidth = 0.5\nheight = 0.1\n";
+  ASSERT_EQ(run_program("generate - --out " + path("dataset"), recipe).status, 0);
+  const std::string cloud = path("dataset/A2/plys/1.ply");
+  const auto labels_by = [&](const std::string& file, const std::string& scene) {
+    const std::string out = path("labelled.ply");
+    const ProgramResult run = run_program("model " + file + " --out " + out + " --scene " + scene);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    return read_cloud(std::filesystem::path(out)).labels;
+  };
+  const auto labels = labels_by(cloud, path("dataset"));
+  EXPECT_GT(score(read_cloud(std::filesystem::path(cloud)).labels, labels).micro_recall, 0.9);
+  std::filesystem::copy(cloud, path("copy.ply"));
+  EXPECT_EQ(labels_by(path("copy.ply"), path("dataset/A2/1")), labels);
+  EXPECT_EQ(labels_by(path("copy.ply"), path("dataset/A2/1/")), labels);
+  EXPECT_EQ(labels_by(path("copy.ply"), path("dataset/recipe.toml")), labels);
+  const auto complaint = [&](const std::string& scene) {
+    return model_without_scene("copy.ply", "--scene " + scene).err;
+  };
+  EXPECT_THAT(complaint(path("dataset")), HasSubstr("found a dataset, and '"));
+  EXPECT_THAT(complaint(path("dataset/A2/7")), HasSubstr("found 'A2/7', expected a case of the dataset"));
 }
 
 }  // namespace

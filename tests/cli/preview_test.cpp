@@ -81,13 +81,18 @@ TEST_F(Preview, HasTheSizeAndTheViewpointThatAreAskedFor) {
   ASSERT_EQ(preview("tube.txt --width 80 --height 60 --out a.png").status, 0);
   ASSERT_EQ(preview("tube.txt --width 80 --height 60 --azimuth-deg 20 --out b.png").status, 0);
   ASSERT_EQ(preview("tube.txt --width 80 --height 60 --elevation-deg -90 --out c.png").status, 0);
-  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --bin published --out d.png").status, 0);
+  write("bin.toml", "[support]\nshape = \"bin\"\npreset = \"published\"\n");
+  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --scene bin.toml --out d.png").status, 0);
+  write("plane.toml", "[support]\nshape = \"plane\"\n");
+  ASSERT_EQ(preview("tube.txt --width 80 --height 60 --scene plane.toml --out e.png").status, 0);
   // The width and the height follow the signature and the head of the first chunk (PNG
   // specification, 11.2.2).
   EXPECT_EQ(read("a.png").substr(16, 8), std::string("\0\0\0\x50\0\0\0\x3c", 8));
   EXPECT_NE(read("a.png"), read("b.png"));
   EXPECT_NE(read("a.png"), read("c.png"));
   EXPECT_NE(read("a.png"), read("d.png"));
+  EXPECT_NE(read("a.png"), read("e.png"));
+  EXPECT_NE(read("d.png"), read("e.png"));
 }
 
 TEST_F(Preview, ReadsStandardInputAndWritesStandardOutput) {
@@ -124,7 +129,8 @@ TEST_F(Preview, SaysWhatIsWrongWithItsInputAndExitsWith2) {
   EXPECT_THAT(message("- < story.txt"), StartsWith("tanglebin: standard input: found 'O' at the start"));
   EXPECT_THAT(preview("tube.txt --out p.jpg").err,
               HasSubstr("--out: found 'p.jpg', expected a name that ends in .png"));
-  EXPECT_THAT(message("tube.txt --bin round"), HasSubstr("found 'round', expected paper or published"));
+  EXPECT_THAT(message("tube.txt --scene round.toml"),
+              HasSubstr("--scene: found 'round.toml', nothing, expected a scene file, a recipe, a dataset"));
   EXPECT_THAT(message("tube.txt --elevation-deg 100"),
               HasSubstr("elevation: found 100°, expected -90° to 90°"));
 }

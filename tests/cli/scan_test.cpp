@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -74,6 +75,18 @@ TEST_F(ScanCommand, WritesAnOrganizedCloudImagesAndTheirCamera) {
   EXPECT_EQ(bytes_of(directory_ / "l.png").substr(1, 3), "PNG");
   const auto camera = nlohmann::json::parse(bytes_of(directory_ / "d.json"));
   EXPECT_EQ(camera["intrinsic_matrix"][0], 2730.0);
+}
+
+TEST_F(ScanCommand, LeavesNothingBehindWhereAnOutputCannotBeMade) {
+  std::string text = one_tube;
+  text.replace(2, 1, "70000");  // the tube's id, too large for a label image
+  write_bytes(configuration_, text);
+  const auto result =
+      run_program("scan " + configuration_.string() + " --out " + (directory_ / "cloud.ply").string() +
+                  " --labels " + (directory_ / "labels.png").string());
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("label 70000"));
+  EXPECT_EQ(files_below(directory_.path()).size(), 1U) << "only the configuration";
 }
 
 TEST_F(ScanCommand, SeesLikeARealScannerWhereAsked) {
@@ -216,6 +229,36 @@ TEST_F(ScanCommand, BadInputIsExitStatusTwoAndLeavesNothing) {
       run_program("scan " + configuration_.string() + " --out " + (directory_ / "no" / "cloud.ply").string());
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(run_program("scan " + configuration_.string() + " --out /dev/full").status, 5);
+}
+
+TEST_F(ScanCommand, ScansAsASceneFileSays) {
+  const std::string scene = (directory_ / "scene.toml").string();
+  const std::string out = (directory_ / "cloud.ply").string();
+  const std::string command =
+      "scan " + configuration_.string() + " --with-bin --out " + out + " --scene " + scene;
+  const std::string camera =
+      "[camera]\nwidth = 200\nheight = 150\nhfov_deg = 40\nposition = [0.2, 0, 1]\nlook_at = [0, 0, 0]\n";
+  write_bytes(scene, camera + "[support]\nshape = \"plane\"\nposition = [0, 0, -0.1]\n");
+  const auto over_a_plane = run_program(command + " --scanner gaussian");
+  ASSERT_EQ(over_a_plane.status, 0) << over_a_plane.err;
+  EXPECT_THAT(over_a_plane.err,
+              HasSubstr("the camera is the scene's; only the sensor is that of --scanner gaussian"));
+  const PointCloud on_plane = read_ply(std::filesystem::path(out));
+  EXPECT_EQ(on_plane.labels.size(), on_plane.points.size());
+  float lowest = 0;
+  for (const Eigen::Vector3f& point : on_plane.points) lowest = std::min(lowest, point.z());
+  EXPECT_NEAR(lowest, -0.1, 0.005);
+
+  write_bytes(scene, camera + "[support]\nshape = \"nothing\"\n");
+  ASSERT_EQ(run_program(command).status, 0);
+  EXPECT_THAT(read_ply(std::filesystem::path(out)).labels, Each(1));
+
+  write_bytes(scene, "[camera]\nfx = 500\nfy = 500\ncx = 0\ncy = 0\n");
+  const auto half = run_program(command);
+  EXPECT_EQ(half.status, 2);
+  EXPECT_THAT(half.err,
+              HasSubstr("camera: found a camera without pose, intrinsics or the size of its image"));
+  EXPECT_EQ(run_program(command + " --bin paper").status, 64);
 }
 
 TEST_F(ScanCommand, TakesEveryPublishedFile) {

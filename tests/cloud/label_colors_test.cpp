@@ -92,5 +92,39 @@ TEST(LabelColors, NameThePointOfAnUnknownColor) {
             "cloud.ply: colour of point 1: f");
 }
 
+PointCloud cloud_in(const std::vector<Color>& colors) {
+  PointCloud cloud;
+  cloud.points.assign(3, {1, 2, 3});
+  cloud.colors = colors;
+  cloud.intensities = {4, 5, 6};
+  cloud.width = 3;
+  return cloud;
+}
+
+TEST(Labelled, ACloudWithoutColoursShowsItsLabels) {
+  const PointCloud cloud = labelled(cloud_in({}), {0, -1, 2});
+  EXPECT_THAT(cloud.labels, testing::ElementsAre(0, -1, 2));
+  EXPECT_THAT(cloud.colors, testing::ElementsAre(label_colors(2)[0], null_color, label_colors(2)[2]));
+  EXPECT_THAT(cloud.intensities, testing::ElementsAre(4, 5, 6));
+}
+
+TEST(Labelled, ColoursOfOtherLabelsGiveWay) {
+  const PointCloud cloud =
+      labelled(cloud_in({label_colors(1000)[999], label_colors(0)[0], null_color}), {1, 1, -1});
+  const Color first = label_colors(1)[1];
+  EXPECT_THAT(cloud.colors, testing::ElementsAre(first, first, null_color));
+}
+
+TEST(Labelled, ACamerasColoursStay) {
+  const std::vector<Color> seen{label_colors(5)[5], null_color, Color{128, 128, 127}};
+  const PointCloud cloud = labelled(cloud_in(seen), {1, 1, -1});
+  EXPECT_EQ(cloud.colors, seen);
+  EXPECT_THAT(cloud.labels, testing::ElementsAre(1, 1, -1));
+}
+
+TEST(Labelled, NoPointsAreNone) {
+  EXPECT_TRUE(labelled(PointCloud{}, {}).colors.empty());
+}
+
 }  // namespace
 }  // namespace tanglebin

@@ -228,7 +228,7 @@ std::string body(const std::vector<Field>& fields, std::size_t points, const std
 
 RC_GTEST_PROP(ReadPcd, ReadsEveryFormatTypeAndOrder, ()) {
   PointCloud cloud = *any_cloud();
-  if (*rc::gen::arbitrary<bool>()) cloud.points[0].y() = nan;
+  cloud.points[0].y() = *rc::gen::element(0.5F, nan, std::numeric_limits<float>::infinity());
   const auto fields = any_fields_of(cloud);
   const auto data = *rc::gen::element<std::string>("ascii", "binary", "binary_compressed");
   std::array<std::string, 4> lines{"FIELDS", "SIZE", "TYPE", "COUNT"};
@@ -356,8 +356,6 @@ TEST(ReadPcd, SaysWhatIsWrongWithPoints) {
   EXPECT_EQ(complaint_about(header(xyz) + "1 2 3\n1 2\n"), "cloud.pcd:13: found 2 values, expected 3");
   EXPECT_EQ(complaint_about(header(xyz) + "1 2 3\n1 2 x\n"),
             "cloud.pcd:13: z: found 'x', expected a 32-bit floating-point number");
-  EXPECT_EQ(complaint_about(header(xyz) + "1 2 3\n1 inf 3\n"),
-            "cloud.pcd:13: y: found inf, expected a finite 32-bit floating-point number or nan");
   EXPECT_EQ(complaint_about(header(xyz) + "1 2 3\n1 2 3\n1 2 3\n"),
             "cloud.pcd:14: found '1 2 3', expected the end of the file");
   EXPECT_EQ(complaint_about(header("FIELDS x y z label\nSIZE 4 4 4 8\nTYPE F F F I\n") +

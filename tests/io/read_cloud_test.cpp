@@ -47,10 +47,13 @@ TEST(ReadCloud, RefusesEverythingElse) {
       complaint([] { read(""); }),
       "cloud: found an empty file, expected a PLY file, which begins with ply, or a PCD file, which begins "
       "with # or VERSION");
-  EXPECT_EQ(complaint([] { read("\x89PNG"); }),
-            "cloud: found '\\x89' at the start, expected a PLY file, which begins with ply, or a PCD file, "
-            "which begins "
-            "with # or VERSION");
+  EXPECT_EQ(complaint([] { read("\x8aPNG"); }),
+            "cloud: found '\\x8a' at the start, expected a PLY file, which begins with ply, or a PCD file, "
+            "which begins with # or VERSION");
+  for (const std::string image : {"\x89PNG", "\x93NUMPY"}) {
+    EXPECT_EQ(complaint([&] { read(image); }),
+              "cloud: found a depth image, expected a cloud, or also the camera that makes one of it");
+  }
   EXPECT_EQ(complaint([] { read("paper\n"); }),
             "cloud:1: found 'paper', expected ply, the first line of a PLY file");
   EXPECT_EQ(complaint([] { read_cloud(std::filesystem::path("no/such.pcd")); }),

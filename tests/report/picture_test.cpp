@@ -79,14 +79,14 @@ PointCloud scanned_tubes() {
 }
 
 TEST(PictureOfTubes, HasTheSizeThatIsAskedFor) {
-  const Picture picture = picture_of_tubes(crossing_tubes(), Bin{}, {.width = 123, .height = 45}, "");
+  const Picture picture = picture_of_tubes(crossing_tubes(), Support{}, {.width = 123, .height = 45}, "");
   EXPECT_EQ(picture.width, 123);
   EXPECT_EQ(picture.height, 45);
   EXPECT_EQ(picture.pixels.size(), 123U * 45U);
 }
 
 TEST(PictureOfTubes, ShowsEachTubeInItsColour) {
-  const Picture picture = picture_of_tubes(crossing_tubes(), Bin{}, small, "");
+  const Picture picture = picture_of_tubes(crossing_tubes(), Support{}, small, "");
   const auto colors = label_colors(3);
   for (std::size_t label = 1; label <= 3; ++label) {
     EXPECT_GT(count_of_hue(picture, colors[label]), 100) << "tube " << label;
@@ -94,7 +94,7 @@ TEST(PictureOfTubes, ShowsEachTubeInItsColour) {
 }
 
 TEST(PictureOfTubes, HasBackgroundInItsCornersAndAllAroundTheBin) {
-  const Picture picture = picture_of_tubes(crossing_tubes(), Bin{}, small, "");
+  const Picture picture = picture_of_tubes(crossing_tubes(), Support{}, small, "");
   for (const int x : {0, 199}) {
     for (const int y : {0, 149}) EXPECT_EQ(pixel_at(picture, x, y), background_color);
   }
@@ -103,12 +103,12 @@ TEST(PictureOfTubes, HasBackgroundInItsCornersAndAllAroundTheBin) {
 }
 
 TEST(PictureOfTubes, IsTheSameTwice) {
-  const auto draw = [] { return picture_of_tubes(crossing_tubes(), Bin{}, small, "").pixels; };
+  const auto draw = [] { return picture_of_tubes(crossing_tubes(), Support{}, small, "").pixels; };
   EXPECT_EQ(draw(), draw());
 }
 
 TEST(PictureOfTubes, OfNoTubesIsTheEmptyBin) {
-  const Picture picture = picture_of_tubes({}, Bin{}, small, "");
+  const Picture picture = picture_of_tubes({}, Support{}, small, "");
   const int background = count_of(picture, background_color);
   EXPECT_LT(background, 200 * 150 * 3 / 4);
   EXPECT_GT(background, 200 * 150 / 5);
@@ -121,7 +121,7 @@ TEST(PictureOfTubes, ANearWallDoesNotHideATube) {
   const std::vector<Tube> tubes = {
       chain(1, 0.0125, {Vector3d(-0.2, -0.17, 0.0125), Vector3d(0.2, -0.17, 0.0125)})};
   const View from_the_side{.azimuth = -std::numbers::pi / 2, .elevation = 0.2, .width = 200, .height = 150};
-  const Picture picture = picture_of_tubes(tubes, Bin{}, from_the_side, "");
+  const Picture picture = picture_of_tubes(tubes, Support{}, from_the_side, "");
   const Color tube = label_colors(1)[1];
   const auto looks_like_tube = [&](const Color& c) { return hue_distance(c, tube) < 0.35; };
   EXPECT_GT(std::ranges::count_if(picture.pixels, looks_like_tube), 400);
@@ -130,13 +130,13 @@ TEST(PictureOfTubes, ANearWallDoesNotHideATube) {
 TEST(PictureOfTubes, AFarWallHidesATubeBehindIt) {
   const std::vector<Tube> tubes = {chain(1, 0.0125, {Vector3d(-0.2, 0.25, 0.05), Vector3d(0.2, 0.25, 0.05)})};
   const View from_the_side{.azimuth = -std::numbers::pi / 2, .elevation = 0.1, .width = 200, .height = 150};
-  EXPECT_EQ(count_of_hue(picture_of_tubes(tubes, Bin{}, from_the_side, ""), label_colors(1)[1]), 0);
+  EXPECT_EQ(count_of_hue(picture_of_tubes(tubes, Support{}, from_the_side, ""), label_colors(1)[1]), 0);
 }
 
 TEST(PictureOfTubes, ADarkLineAndShadowSetATubeApartFromTheFloor) {
   const std::vector<Tube> tubes = {chain(1, 0.0125, {Vector3d(-0.2, 0, 0.05), Vector3d(0.2, 0, 0.05)})};
-  const Picture picture = picture_of_tubes(tubes, Bin{}, from_above, "");
-  const Picture empty = picture_of_tubes({}, Bin{}, from_above, "");
+  const Picture picture = picture_of_tubes(tubes, Support{}, from_above, "");
+  const Picture empty = picture_of_tubes({}, Support{}, from_above, "");
   // Down the middle column, to the row where the tube begins.
   const Color tube = label_colors(1)[1];
   int y = 0;
@@ -148,25 +148,25 @@ TEST(PictureOfTubes, ADarkLineAndShadowSetATubeApartFromTheFloor) {
 
 TEST(PictureOfTubes, ShowsATubeThatLiesOutsideOfTheBin) {
   const std::vector<Tube> tubes = {chain(1, 0.05, {Vector3d(2, -0.2, 0.5), Vector3d(2, 0.2, 0.5)})};
-  EXPECT_GT(count_of_hue(picture_of_tubes(tubes, Bin{}, small, ""), label_colors(1)[1]), 50);
+  EXPECT_GT(count_of_hue(picture_of_tubes(tubes, Support{}, small, ""), label_colors(1)[1]), 50);
 }
 
 TEST(PictureOfTubes, RefusesWhatCannotBeDrawn) {
   const auto far = {chain(1, 0.01, {Vector3d(1e200, 0, 0), Vector3d(0, 0, 0)})};
-  EXPECT_THAT(complaint([&] { picture_of_tubes(far, Bin{}, small, "far.txt"); }),
+  EXPECT_THAT(complaint([&] { picture_of_tubes(far, Support{}, small, "far.txt"); }),
               testing::HasSubstr("far.txt: x y z: found 1e+200 m"));
   const auto numbered = {chain(2'000'000'000, 0.01, {Vector3d(0, 0, 0), Vector3d(0.1, 0, 0)})};
-  EXPECT_EQ(complaint([&] { picture_of_tubes(numbered, Bin{}, small, "odd.txt"); }),
+  EXPECT_EQ(complaint([&] { picture_of_tubes(numbered, Support{}, small, "odd.txt"); }),
             "odd.txt: label: found 2000000000, expected labels up to 100000");
-  EXPECT_EQ(complaint([&] { picture_of_tubes({}, Bin{}, {.width = 0}, ""); }),
+  EXPECT_EQ(complaint([&] { picture_of_tubes({}, Support{}, {.width = 0}, ""); }),
             "width: found 0, expected 1 to 4096 pixels");
 }
 
 TEST(PictureOfTubes, DrawsThePublishedConfigurations) {
   const std::filesystem::path file = std::filesystem::path(TANGLEBIN_PUBLISHED) / "A20_1.txt";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
-  const Picture picture =
-      picture_of_tubes(read_configuration(file), bin_preset("published"), {.width = 600, .height = 450}, "");
+  const Picture picture = picture_of_tubes(read_configuration(file), {.bin = bin_preset("published")},
+                                           {.width = 600, .height = 450}, "");
   const auto colors = label_colors(20);
   for (std::size_t label = 1; label <= 20; ++label) {
     EXPECT_GT(count_of_hue(picture, colors[label]), 10) << "tube " << label;

@@ -331,5 +331,50 @@ TEST(Scanner, LeavesTheCallersFloatingPointStateAlone) {
   EXPECT_GT(denormal / 2, 0) << "denormal numbers are flushed to zero";
 }
 
+TEST(Scanner, ATiltedBinIsSeenAsAnUprightOneByATiltedCamera) {
+  Rng rng(test::seed);
+  const std::vector<Tube> tubes = test::random_pile(rng, 3, Bin{});
+  const Camera camera = test::camera_at({0.2, 0.1, 1}, {0, 0, 0}, 160, 120, 0.7);
+  const Scan upright = scan(tubes, Bin{}, camera);
+  Eigen::Isometry3d motion(Eigen::AngleAxisd(0.3, Vector3d(1, 2, 3).normalized()));
+  motion.translation() = Vector3d(0.1, -0.2, 0.3);
+  std::vector<Tube> moved_tubes = tubes;
+  for (Tube& tube : moved_tubes) transform(tube, motion);
+  Camera moved_camera = camera;
+  moved_camera.pose = motion * camera.pose;
+  const Scan tilted = scan(moved_tubes, Support{.pose = motion}, moved_camera);
+  ASSERT_EQ(tilted.pixels.size(), upright.pixels.size());
+  EXPECT_EQ(tilted.camera, moved_camera);
+  int different = 0;
+  for (std::size_t i = 0; i < upright.pixels.size(); ++i) {
+    const Pixel& pixel = tilted.pixels[i];
+    different += pixel.label != upright.pixels[i].label ? 1 : 0;
+    if (pixel.label != upright.pixels[i].label || pixel.label == null_label) continue;
+    EXPECT_NEAR(pixel.depth, upright.pixels[i].depth, 1e-5);
+    EXPECT_LT((motion * upright.pixels[i].point.cast<double>() - pixel.point.cast<double>()).norm(), 1e-5);
+    EXPECT_LT(
+        (motion.linear() * upright.pixels[i].normal.cast<double>() - pixel.normal.cast<double>()).norm(),
+        1e-4);
+  }
+  EXPECT_LE(different, 3);  // at silhouettes
+}
+
+TEST(Scanner, SeesAPlaneAsFarAsItReachesAndWithoutASupportOnlyTubes) {
+  const std::vector<Tube> tubes = {test::chain(1, 0.02, {{-0.1, 0, 0.02}, {0.1, 0, 0.02}})};
+  const Camera camera = downward_camera(80, 60, 50, {0, 0, 1});
+  const Scan plane = scan(tubes, Support{.shape = Support::Shape::plane}, camera);
+  ASSERT_EQ(plane.pixels.size(), 80U * 60U);
+  for (const Pixel& pixel : plane.pixels) {
+    ASSERT_NE(pixel.label, null_label);
+    if (pixel.label == bin_label) {
+      EXPECT_NEAR(pixel.point.z(), 0, 1e-6);
+    }
+  }
+  const Scan nothing = scan(tubes, Support{.shape = Support::Shape::nothing}, camera);
+  EXPECT_TRUE(shows_a_tube(nothing));
+  for (const Pixel& pixel : nothing.pixels) EXPECT_NE(pixel.label, bin_label);
+  EXPECT_TRUE(scan({}, Support{.shape = Support::Shape::nothing}, camera).pixels.empty());
+}
+
 }  // namespace
 }  // namespace tanglebin

@@ -92,6 +92,16 @@ TEST(ScoreClouds, CloudsWithoutLabelsAndColoursAreErrors) {
             "labelled.ply: found neither labels nor colours, expected a label or a colour for each point");
 }
 
+TEST(ScoreClouds, APicturesColoursStandForNoTubes) {
+  const PointCloud cloud = cloud_with(LabelsOfPoints(2001, 1));
+  std::vector<Color> colors;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    colors.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i / 256), 7});
+  EXPECT_EQ(complaint([&] { score_of(cloud, in_color(cloud, colors)); }),
+            "labelled.ply: found no labels, but 2001 colours, expected a label for each point, or at most "
+            "2000 colours, one for each tube");
+}
+
 TEST(MatchPoints, NamesTheFirstPointThatTheTruthLacks) {
   PointCloud labelled = cloud_with({1, 1, 1});
   labelled.points[1].y() = 0.25F;

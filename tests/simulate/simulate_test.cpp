@@ -32,7 +32,7 @@ std::set<std::int32_t> labels_of(const Scan& scan) {
 
 TEST(Simulate, GivesTheTubesAskedForAndAScanThatSeesThem) {
   const Recipe recipe = small_recipe();
-  const Scene scene = simulate(recipe, {"A", 3, 1});
+  const SimulatedScene scene = simulate(recipe, {"A", 3, 1});
   ASSERT_EQ(scene.tubes.size(), 3U);
   for (int id = 1; id <= 3; ++id) EXPECT_EQ(scene.tubes[static_cast<std::size_t>(id - 1)].id, id);
   EXPECT_LE(scene.largest_overlap, recipe.settle.overlap_max);
@@ -46,7 +46,7 @@ TEST(Simulate, TakesKindsOfTubesInTurn) {
   thin.radius = 0.008;
   thin.mass = 0.2;
   recipe.sets[0].kinds.push_back(thin);
-  const Scene scene = simulate(recipe, {"A", 3, 1});
+  const SimulatedScene scene = simulate(recipe, {"A", 3, 1});
   ASSERT_EQ(scene.tubes.size(), 3U);
   for (const Tube& tube : scene.tubes) EXPECT_EQ(tube.radius, tube.id == 2 ? 0.008 : 0.0125) << tube.id;
   EXPECT_THAT(labels_of(scene.scan), testing::IsSupersetOf({0, 1, 2, 3}));
@@ -62,7 +62,7 @@ TEST(Simulate, ACaseIsTheSameWhateverWasSimulatedBefore) {
 
 TEST(Simulate, TheTextFormatHoldsTheSceneExactly) {
   const Recipe recipe = small_recipe();
-  const Scene scene = simulate(recipe, {"A", 3, 2});
+  const SimulatedScene scene = simulate(recipe, {"A", 3, 2});
   std::istringstream text(text_of(scene.tubes));
   const std::vector<Tube> read = read_configuration(text, "scene");
   ASSERT_EQ(text_of(read), text.str());
@@ -120,7 +120,7 @@ TEST(Simulate, KnowsOnlyTheRecipesSets) {
 TEST(Simulate, TheSensorsNoiseFollowsFromTheScenesSeed) {
   Recipe recipe = test::small_recipe();
   recipe.sensor.sigma = 0.001;
-  const Scene scene = simulate(recipe, {"A", 3, 1});
+  const SimulatedScene scene = simulate(recipe, {"A", 3, 1});
   const Scan again = scan(scene.tubes, recipe.bin, recipe.camera, recipe.sensor, scene.seed);
   ASSERT_EQ(again.pixels.size(), scene.scan.pixels.size());
   for (std::size_t i = 0; i < again.pixels.size(); ++i) {
@@ -135,7 +135,7 @@ TEST(Simulate, TwoScannersOfASceneSeeTheSameTubesEachWithItsOwnNoise) {
   recipe.sensor = {.sigma = 0.001, .signal = true};
   recipe.scanner_name = "left";
   recipe.further_scanners = {{"right", recipe.camera, recipe.sensor}};
-  const Scene scene = simulate(recipe, {"A", 3, 1});
+  const SimulatedScene scene = simulate(recipe, {"A", 3, 1});
   const Scan& left = scene.scan;
   const Scan& right = scene.further_scans.at(0);
   EXPECT_EQ(left.snr, right.snr) << "of the same albedo and gloss";

@@ -52,6 +52,7 @@ Cropped crop(const PointCloud& cloud, const Support& support, const FilterSettin
 std::vector<std::size_t> downsample(const std::vector<std::size_t>& indices, double ratio,
                                     std::uint64_t seed) {
   const auto wanted = static_cast<std::size_t>(std::llround(ratio * static_cast<double>(indices.size())));
+  if (wanted == indices.size()) return indices;
   Rng rng(seed);
   std::vector<std::size_t> drawn;
   drawn.reserve(wanted);

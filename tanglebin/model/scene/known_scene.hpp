@@ -19,7 +19,7 @@ struct TubeKind {
   /// The largest length of the centre line with all branches, m.
   double length() const { return total_length(segments); }
   /// False for a chain of unknown length, whose segment is infinite.
-  bool length_is_known() const { return std::isfinite(length()); }
+  bool length_is_known() const { return !std::isinf(length()); }
   /// True for a tree.
   bool branches() const { return segments.size() > 1; }
 };

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tanglebin/geometry/labels.hpp"
+#include "tanglebin/model/scene/box_grid.hpp"
 
 namespace tanglebin {
 namespace {
@@ -53,6 +54,12 @@ std::vector<Claim> claims_of(const std::vector<Tube>& tubes, double distance_max
   return claims;
 }
 
+BoxGrid grid_of(const std::vector<Claim>& claims) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Claim& claim : claims) boxes.push_back(claim.box);
+  return BoxGrid(boxes);
+}
+
 // From a cylinder that is cut flat, at the end that the point is nearer to.
 double distance_from_cut(const Capsule& capsule, const Vector3d& end, const Vector3d& outward,
                          const Vector3d& point) {
@@ -77,11 +84,13 @@ double surface_distance_of(const Claim& claim, const Vector3d& point) {
 std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::vector<std::size_t>& points,
                                            const std::vector<Tube>& tubes, const LabelSettings& settings) {
   const std::vector<Claim> claims = claims_of(tubes, settings.distance_max);
+  const BoxGrid grid = grid_of(claims);
   std::vector<std::int32_t> labels(points.size(), null_label);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector3d point = cloud.points[points[i]].cast<double>();
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Claim& claim : claims) {
+    for (const std::uint32_t index : grid.around(point)) {
+      const Claim& claim = claims[index];
       if (!claim.box.contains(point)) continue;
       const double distance = surface_distance_of(claim, point);
       if (distance >= std::min(nearest, claim.distance_max)) continue;

@@ -22,8 +22,8 @@ std::vector<Seen> seen_points(const std::vector<Eigen::Vector3f>& points, const 
   std::vector<Seen> seen;
   seen.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::optional<PixelPosition> pixel = pixel_of(camera, points[i].cast<double>());
-    if (pixel) seen.push_back({*pixel, static_cast<std::uint32_t>(i)});
+    const std::optional<SeenPixel> pixel = seen_pixel(camera, points[i].cast<double>());
+    if (pixel) seen.push_back({pixel->pixel, static_cast<std::uint32_t>(i)});
   }
   return seen;
 }

@@ -16,12 +16,12 @@ RangeImage::RangeImage(const std::vector<Eigen::Vector3f>& points, const Camera&
       depths_(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
               std::numeric_limits<float>::infinity()) {
   for (const Eigen::Vector3f& point : points) {
-    if (!point.allFinite()) continue;
-    const std::optional<PixelPosition> pixel = pixel_of(camera, point.cast<double>());
-    if (!pixel) continue;
-    float& nearest = depths_[static_cast<std::size_t>(pixel->row) * static_cast<std::size_t>(camera.width) +
-                             static_cast<std::size_t>(pixel->column)];
-    nearest = std::min(nearest, static_cast<float>(depth_of(camera, point.cast<double>())));
+    const std::optional<SeenPixel> seen = seen_pixel(camera, point.cast<double>());
+    if (!seen) continue;
+    const auto [column, row] = seen->pixel;
+    float& nearest = depths_[static_cast<std::size_t>(row) * static_cast<std::size_t>(camera.width) +
+                             static_cast<std::size_t>(column)];
+    nearest = std::min(nearest, static_cast<float>(seen->depth));
   }
 }
 

@@ -19,9 +19,13 @@ bool is_in_support_frame(const KnownScene& known) {
 }
 
 Seen in_support_frame(const PointCloud& cloud, const KnownScene& known) {
-  Seen seen{cloud, known};
+  Seen seen{{}, known};
   const Isometry3d from_world = frame_of(known).inverse(Eigen::Isometry);
-  for (Eigen::Vector3f& point : seen.cloud.points) point = (from_world * point.cast<double>()).cast<float>();
+  seen.cloud.width = cloud.width;
+  seen.cloud.height = cloud.height;
+  seen.cloud.points.reserve(cloud.points.size());
+  for (const Eigen::Vector3f& point : cloud.points)
+    seen.cloud.points.push_back((from_world * point.cast<double>()).cast<float>());
   seen.known.camera.pose = from_world * known.camera.pose;
   seen.known.support.pose.setIdentity();
   return seen;

@@ -17,7 +17,7 @@ struct Seen {
 bool is_in_support_frame(const KnownScene& known);
 
 /// Moves a cloud from the world frame into the support's frame, the camera with it. Without a support, the
-/// origin moves to the camera.
+/// origin moves to the camera. Of the cloud, only the points are taken along.
 Seen in_support_frame(const PointCloud& cloud, const KnownScene& known);
 
 /// Moves the tubes of a model that was found in the support's frame back into the world frame.

@@ -93,7 +93,7 @@ TEST(LabelPoints, CallsBinWhatIsOfTheBinAndNullWhatWasNotLookedAt) {
   // On the floor; beside a tube, and on it, claimed by another; far outside of the bin.
   const PointCloud cloud =
       cloud_of({{0, 0.1F, 0}, {0, 0.013F, 0.0125F}, {0.1F, 0.0125F, 0.0125F}, {0, 0.013F, 5}});
-  const Cropped cropped{.kept = {1, 2}, .support = {0}, .outside = {3}};
+  const Cropped cropped{.kept = {1, 2}, .support = {0}, .outside = {3}, .near = {}};
   const std::vector<std::int32_t> claimed = {null_label, null_label, 7, null_label};
   EXPECT_THAT(label_points(cloud, cropped, claimed, {test::straight_tube(1, 0)}, {}),
               ElementsAre(bin_label, 1, 7, null_label));

@@ -1,0 +1,136 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/cli/arguments.hpp"
+#include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/outputs.hpp"
+#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/scene_options.hpp"
+#include "tanglebin/scene/locate_support.hpp"
+#include "tanglebin/scene/read_measurement.hpp"
+#include "tanglebin/scene/write_scene.hpp"
+
+namespace tanglebin::cli {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double millimetre = 0.001;
+
+struct LocateArguments {
+  std::string cloud;
+  std::optional<std::string> out;
+  SceneOptions scene;
+  bool json = false;
+};
+
+nlohmann::ordered_json rows_of(const Eigen::Isometry3d& pose) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (int row = 0; row < 4; ++row) {
+    rows.push_back(
+        {pose.matrix()(row, 0), pose.matrix()(row, 1), pose.matrix()(row, 2), pose.matrix()(row, 3)});
+  }
+  return rows;
+}
+
+void print_json(const Located& located) {
+  const Eigen::Vector3d position = located.position_sd / millimetre;
+  const Eigen::Vector3d rotation = located.rotation_sd / degree;
+  nlohmann::ordered_json json{{"shape", name_of(located.support.shape)},
+                              {"support_to_world", rows_of(located.support.pose)},
+                              {"position_sd_mm", {position.x(), position.y(), position.z()}},
+                              {"rotation_sd_deg", {rotation.x(), rotation.y(), rotation.z()}},
+                              {"residual_mm", located.residual / millimetre},
+                              {"explained", located.explained},
+                              {"contradicted", located.contradicted}};
+  if (located.support.shape == Support::Shape::bin) {
+    json["measured"] = {{"length", located.measured.length},
+                        {"width", located.measured.width},
+                        {"height", located.measured.height},
+                        {"wall", located.measured.wall}};
+  }
+  for (const LocatedPart& part : located.parts)
+    json["parts"].push_back(
+        {{"name", part.name}, {"points", part.points}, {"noise_mm", part.noise / millimetre}});
+  print_json_line(json);
+}
+
+void print_table(const Located& located) {
+  const Eigen::Vector3d position = located.support.pose.translation();
+  const Eigen::Quaterniond rotation(located.support.pose.linear());
+  const Eigen::Vector3d position_sd = located.position_sd / millimetre;
+  const Eigen::Vector3d rotation_sd = located.rotation_sd / degree;
+  print_out("position   {:>9.4f} {:>9.4f} {:>9.4f} m\n", position.x(), position.y(), position.z());
+  print_out("  ±        {:>9.2f} {:>9.2f} {:>9.2f} mm along the support's x, y, z\n", position_sd.x(),
+            position_sd.y(), position_sd.z());
+  print_out("quaternion {:>9.5f} {:>9.5f} {:>9.5f} {:>9.5f} (w x y z)\n", rotation.w(), rotation.x(),
+            rotation.y(), rotation.z());
+  print_out("  ±        {:>9.3f} {:>9.3f} {:>9.3f} degrees about the support's x, y, z\n", rotation_sd.x(),
+            rotation_sd.y(), rotation_sd.z());
+  print_out("residual   {:>9.2f} mm\n", located.residual / millimetre);
+  print_out("points     {:>9.1f} % on the support, {:.1f} % behind it\n", 100 * located.explained,
+            100 * located.contradicted);
+  if (located.support.shape == Support::Shape::bin) {
+    const Bin& measured = located.measured;
+    const Bin& given = located.support.bin;
+    print_out("sizes      {:.4f} x {:.4f} x {:.4f} m, wall {:.4f} m; given {} x {} x {} m, wall {} m\n",
+              measured.length, measured.width, measured.height, measured.wall, given.length, given.width,
+              given.height, given.wall);
+  }
+  for (const LocatedPart& part : located.parts)
+    print_out("{:<24} {:>6} points  {:.2f} mm\n", part.name, part.points, part.noise / millimetre);
+}
+
+std::vector<Output> outputs(const LocateArguments& arguments) {
+  if (!arguments.out) return {};
+  return {{"--out", *arguments.out, {".toml"}}};
+}
+
+void locate_in_cloud(const LocateArguments& arguments) {
+  expect_outputs(outputs(arguments));
+  const Scene told = scene_of(arguments.scene, arguments.cloud);
+  const Measurement measured =
+      read_input(arguments.cloud, [&](auto&&... from) { return read_measurement(from..., told); });
+  const LocatedScene found =
+      with_file(arguments.cloud, [&] { return locate_support(measured.scene, measured.cloud); });
+  print_notes(found.notes);
+  if (arguments.out) {
+    std::ostringstream scene;
+    write_scene(scene, found.scene);
+    write_output(*arguments.out, scene.str());
+  }
+  if (take_standard_output(outputs(arguments))) return;
+  if (arguments.json) {
+    print_json(found.located);
+  } else {
+    print_table(found.located);
+  }
+}
+
+}  // namespace
+
+void add_locate(CLI::App& app) {
+  const auto arguments = std::make_shared<LocateArguments>();
+  CLI::App* command = app.add_subcommand("locate", "Find the bin or plane of a scene in a cloud");
+  command->add_option("cloud", arguments->cloud, "Cloud (PLY or PCD) or depth image; - for standard input")
+      ->required();
+  command->add_option("--out", arguments->out,
+                      "Write the scene with the pose found: .toml (docs/formats.md); - for standard output");
+  add_scene_option(*command, arguments->scene.scene);
+  add_camera_options(*command, arguments->scene);
+  command->add_flag("--json", arguments->json, "Print the pose as JSON");
+  command->footer(
+      "Example:\n  tanglebin locate scan.ply --scene scene.toml --out located.toml\n"
+      "  tanglebin model scan.ply --scene located.toml --out labelled.ply\n"
+      "The scene's [support] has the shape, and the sizes of a bin; its pose is only a guess. Where the bin "
+      "is "
+      "not found surely,\nthe program says what it saw and exits with 2 (docs/real-scans.md).");
+  command->callback([arguments] { locate_in_cloud(*arguments); });
+}
+
+}  // namespace tanglebin::cli

@@ -1,0 +1,46 @@
+#include "tanglebin/cloud/images.hpp"
+
+#include <fmt/core.h>
+
+#include <string>
+
+#include "tanglebin/base/error.hpp"
+
+namespace tanglebin {
+namespace {
+
+void check_size(const DepthImage& image, const Intrinsics& camera) {
+  if (image.width == camera.width && image.height == camera.height) return;
+  const bool is_transposed = image.width == camera.height && image.height == camera.width;
+  throw InputError({"", 0, "size"}, fmt::format("{} x {} pixels", image.width, image.height),
+                   fmt::format("{} x {}, the size of the camera's image{}", camera.width, camera.height,
+                               is_transposed ? "; is this one transposed?" : ""));
+}
+
+// The coordinate, at depth 1, of the pixels of a row or a column.
+std::vector<double> slopes(int pixels, double focal_length, double principal_point) {
+  std::vector<double> result;
+  for (int i = 0; i < pixels; ++i) result.push_back((i - principal_point) / focal_length);
+  return result;
+}
+
+}  // namespace
+
+PointCloud cloud_from_depths(const DepthImage& image, const Intrinsics& intrinsics) {
+  check_size(image, intrinsics);
+  const std::vector<double> across = slopes(image.width, intrinsics.fx, intrinsics.cx);
+  const std::vector<double> down = slopes(image.height, intrinsics.fy, intrinsics.cy);
+  PointCloud cloud;
+  cloud.width = across.size();
+  cloud.height = down.size();
+  cloud.points.reserve(image.depths.size());
+  for (std::size_t row = 0; row < cloud.height; ++row) {
+    for (std::size_t column = 0; column < cloud.width; ++column) {
+      const double depth = image.depths[row * cloud.width + column];
+      cloud.points.push_back(Eigen::Vector3d(across[column] * depth, down[row] * depth, depth).cast<float>());
+    }
+  }
+  return cloud;
+}
+
+}  // namespace tanglebin

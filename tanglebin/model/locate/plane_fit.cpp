@@ -1,0 +1,179 @@
+#include "tanglebin/model/locate/plane_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "tanglebin/base/median.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// A plane with a frame of its own.
+struct Frame {
+  Vector3d origin;  // m
+  Vector3d x;
+  Vector3d y;
+  Vector3d normal;
+
+  Vector3d local(const Vector3d& point) const {
+    const Vector3d from = point - origin;
+    return {x.dot(from), y.dot(from), normal.dot(from)};
+  }
+};
+
+Frame frame_on(const Vector3d& normal, const Vector3d& origin) {
+  const Vector3d x = normal.unitOrthogonal();
+  return {origin, x, normal.cross(x), normal};
+}
+
+struct Sums {
+  Matrix3d information = Matrix3d::Zero();  // of height (m) and slopes along x and y
+  Vector3d gradient = Vector3d::Zero();
+};
+
+std::vector<Vector3d> within(const std::vector<Vector3d>& points, const Frame& frame, double gate) {
+  std::vector<Vector3d> near;
+  for (const Vector3d& point : points) {
+    const Vector3d local = frame.local(point);
+    if (std::abs(local.z()) < gate) near.push_back(local);
+  }
+  return near;
+}
+
+double spread_of(const std::vector<Vector3d>& local) {
+  constexpr double deviation_of_median = 1.4826;
+  constexpr double smallest = 0.0001;
+  std::vector<double> distances;
+  distances.reserve(local.size());
+  for (const Vector3d& point : local) distances.push_back(std::abs(point.z()));
+  return distances.empty() ? smallest
+                           : std::max(deviation_of_median * median(std::move(distances)), smallest);
+}
+
+double trust_of(double distance, double gate) {
+  const double ratio = distance / gate;
+  return (1 - ratio * ratio) * (1 - ratio * ratio);
+}
+
+/// Sums over a block of 0.15 m.
+struct Block {
+  double weight = 0;
+  double sum = 0;  // of distances, m
+};
+
+std::pair<long, long> block_of(const Vector3d& local) {
+  constexpr double size = 0.15;
+  return {std::lround(local.x() / size), std::lround(local.y() / size)};
+}
+
+using Blocks = std::map<std::pair<long, long>, Block>;
+
+Blocks blocks_of(const std::vector<Vector3d>& local, double gate) {
+  Blocks blocks;
+  for (const Vector3d& point : local) {
+    Block& block = blocks[block_of(point)];
+    block.weight += trust_of(point.z(), gate);
+    block.sum += trust_of(point.z(), gate) * point.z();
+  }
+  return blocks;
+}
+
+// RMS of the blocks' mean distances, m: an error that the points of a block share.
+double shared_error(const Blocks& blocks) {
+  constexpr double enough = 20;
+  constexpr double smallest = 0.0001;
+  double squares = 0;
+  int count = 0;
+  for (const auto& [place, block] : blocks) {
+    if (block.weight < enough) continue;
+    squares += block.sum / block.weight * block.sum / block.weight;
+    ++count;
+  }
+  return count == 0 ? smallest : std::max(std::sqrt(squares / count), smallest);
+}
+
+Sums sums_of(const std::vector<Vector3d>& local, double gate, double spread, double shared) {
+  const Blocks blocks = blocks_of(local, gate);
+  Sums sums;
+  for (const Vector3d& point : local) {
+    const double variance = spread * spread + blocks.at(block_of(point)).weight * shared * shared;
+    const double weight = trust_of(point.z(), gate) / variance;
+    const Vector3d gradient(1, point.x(), point.y());
+    sums.information += weight * gradient * gradient.transpose();
+    sums.gradient += weight * point.z() * gradient;
+  }
+  return sums;
+}
+
+Vector3d middle_of(const std::vector<Vector3d>& local) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d& point : local) sum += point;
+  return sum / static_cast<double>(std::max<std::size_t>(local.size(), 1));
+}
+
+std::vector<Vector3d> points_of(const View& view) {
+  constexpr std::size_t points_max = 60000;
+  std::vector<Vector3d> points;
+  for (const std::size_t pixel : view.sample(points_max)) points.push_back(view.points[pixel].cast<double>());
+  return points;
+}
+
+double share_below(const std::vector<Vector3d>& points, const Frame& frame, double gate) {
+  const auto below =
+      std::ranges::count_if(points, [&](const Vector3d& point) { return frame.local(point).z() < -gate; });
+  return static_cast<double>(below) / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+PlaneFit fit_plane(const View& view, const FlatPlane& plane, double margin) {
+  constexpr int rounds = 8;
+  constexpr double deviations = 4;
+  constexpr double narrowest = 0.0015;
+  constexpr double smallest_information = 1e-6;
+  const std::vector<Vector3d> points = points_of(view);
+  Frame frame = frame_on(plane.normal, plane.offset * plane.normal);
+  double gate = std::max(deviations * plane.noise, 0.004) + margin;
+  std::vector<Vector3d> near;
+  Matrix3d information = Matrix3d::Identity();
+  double shared = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const Vector3d middle = middle_of(within(points, frame, gate));
+    frame.origin += middle.x() * frame.x + middle.y() * frame.y;
+    near = within(points, frame, gate);
+    const double spread = spread_of(near);
+    shared = shared_error(blocks_of(near, gate));
+    const Sums sums = sums_of(near, gate, spread, shared);
+    information = sums.information + smallest_information * Matrix3d::Identity();
+    const Vector3d step = information.ldlt().solve(sums.gradient);
+    const Vector3d normal = (frame.normal - step[1] * frame.x - step[2] * frame.y).normalized();
+    frame = frame_on(normal, frame.origin + step[0] * frame.normal);
+    // Clutter spreads as far as the gate: it must not widen it.
+    gate = std::min(gate, std::max(deviations * spread, narrowest) + margin);
+  }
+  near = within(points, frame, gate);
+  double squares = 0;
+  for (const Vector3d& point : near) squares += point.z() * point.z();
+  const auto count = static_cast<double>(std::max<std::size_t>(near.size(), 1));
+  PlaneFit fit{.frame = Eigen::Isometry3d::Identity(),
+               .residual = std::sqrt(squares / count),
+               .noise = spread_of(near),
+               .points = static_cast<int>(near.size()),
+               .explained = count / static_cast<double>(points.size()),
+               .below = share_below(points, frame, 2 * gate),
+               .covariance = information.inverse()};
+  fit.frame.linear() << frame.x, frame.y, frame.normal;
+  fit.frame.translation() = frame.origin;
+  fit.covariance(0, 0) += shared * shared;  // an error of all points leaves no residual
+  return fit;
+}
+
+}  // namespace tanglebin

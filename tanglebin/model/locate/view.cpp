@@ -1,0 +1,86 @@
+#include "tanglebin/model/locate/view.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "tanglebin/base/error.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr std::size_t points_min = 1000;
+
+Vector3f nothing() {
+  return Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+}
+
+std::size_t index_of(const Camera& camera, int column, int row) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(camera.width) +
+         static_cast<std::size_t>(column);
+}
+
+void expect_points(std::size_t finite, std::size_t in_image) {
+  const InputPlace place{.file = "", .line = 0, .field = "cloud"};
+  if (finite < points_min) {
+    throw InputError(place, fmt::format("{} points with a position", finite),
+                     fmt::format("at least {} to locate the support", points_min));
+  }
+  if (2 * in_image < finite || in_image < points_min) {
+    throw InputError(
+        place,
+        fmt::format("{} of {} points in the camera's image: do frame, unit and camera belong to this cloud?",
+                    in_image, finite),
+        "most of them");
+  }
+}
+
+}  // namespace
+
+Vector3f View::at(int column, int row) const {
+  if (column < 0 || column >= camera.width || row < 0 || row >= camera.height) return nothing();
+  return points[index_of(camera, column, row)];
+}
+
+std::vector<std::size_t> View::sample(std::size_t count) const {
+  // An odd stride does not fall into step with the image's rows.
+  const std::size_t stride = (seen.size() / std::max<std::size_t>(count, 1)) | 1U;
+  std::vector<std::size_t> chosen;
+  chosen.reserve(seen.size() / stride + 1);
+  for (std::size_t i = 0; i < seen.size(); i += stride) chosen.push_back(seen[i]);
+  return chosen;
+}
+
+View view_of(const PointCloud& cloud, const Camera& camera) {
+  View view{.camera = camera, .points = {}, .seen = {}};
+  view.camera.pose.setIdentity();
+  view.points.assign(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
+                     nothing());
+  const Isometry3d from_world = camera.pose.inverse(Eigen::Isometry);
+  std::size_t finite = 0;
+  std::size_t in_image = 0;
+  for (const Vector3f& point : cloud.points) {
+    if (!point.allFinite()) continue;
+    ++finite;
+    const Vector3d in_camera = from_world * point.cast<double>();
+    const std::optional<PixelPosition> pixel = pixel_of(view.camera, in_camera);
+    if (!pixel) continue;
+    ++in_image;
+    Vector3f& nearest = view.points[index_of(camera, pixel->column, pixel->row)];
+    if (!(nearest.z() <= in_camera.z())) nearest = in_camera.cast<float>();
+  }
+  expect_points(finite, in_image);
+  for (std::size_t i = 0; i < view.points.size(); ++i) {
+    if (view.points[i].allFinite()) view.seen.push_back(i);
+  }
+  return view;
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,279 @@
+#include "tanglebin/scene/resolve_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/model/axis/radius.hpp"
+#include "tanglebin/scene/image_of_cloud.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Isometry3d;
+using Notes = std::vector<std::string>;
+
+constexpr double millimetre = 0.001;  // m
+
+std::string percent(double share) {
+  return fmt::format("{:.0f} %", 100 * share);
+}
+
+// Scenes are from some centimetres to some metres wide.
+double unit_of(const Scene& scene, const PointCloud& cloud, Notes& notes) {
+  if (scene.camera.unit) return *scene.camera.unit;
+  constexpr double smallest = 0.02;
+  constexpr double largest = 10;
+  const std::optional<double> size = extent(cloud);
+  if (!size || (*size >= smallest && *size <= largest)) return 1;
+  if (*size >= 5 * largest && *size <= largest / millimetre) {
+    notes.push_back(fmt::format("the cloud is {:.4g} wide, which are taken for millimetres", *size));
+    return millimetre;
+  }
+  throw InputError({"", 0, "unit"}, fmt::format("points within {:.4g} of each other", *size),
+                   fmt::format("a scene of {} to {} m; say what the numbers are: --unit m or --unit mm, or "
+                               "unit in the scene file's [camera]",
+                               smallest, largest));
+}
+
+// The points as they are, times the unit.
+PointCloud in_metres(const PointCloud& cloud, double unit) {
+  PointCloud scaled;
+  scaled.points = cloud.points;
+  if (unit != 1) {
+    for (Eigen::Vector3f& point : scaled.points) point = (unit * point.cast<double>()).cast<float>();
+  }
+  scaled.width = cloud.width;
+  scaled.height = cloud.height;
+  scaled.viewpoint = cloud.viewpoint;
+  if (scaled.viewpoint) scaled.viewpoint->translation() *= unit;
+  return scaled;
+}
+
+/// A frame that the cloud may be in, and how well it shows an image there.
+struct Candidate {
+  CloudFrame frame;
+  std::optional<FittedIntrinsics> fitted;  ///< if the camera's intrinsics are not known
+  double share;  ///< of the points that are in the image; with fitted intrinsics, 1 if they fit, else 0
+};
+
+/// Of a cloud in metres.
+class CameraSearch {
+public:
+  CameraSearch(const SceneCamera& camera, const PointCloud& cloud) : camera_(camera), cloud_(cloud) {}
+
+  /// The camera, and the frame in which the cloud's points are.
+  std::pair<Camera, CloudFrame> find(Notes& notes) const {
+    expect_image();
+    const std::optional<Isometry3d> pose = known_pose(notes);
+    const Candidate chosen = choose(pose, notes);
+    const Isometry3d known = pose.value_or(Isometry3d::Identity());
+    return {camera_with(intrinsics_in(chosen, known, notes), known), chosen.frame};
+  }
+
+private:
+  std::optional<Intrinsics> known_intrinsics() const {
+    std::optional<Intrinsics> known = camera_.intrinsics;
+    if (known && known->width == 0) {
+      known->width = static_cast<int>(cloud_.width);
+      known->height = static_cast<int>(cloud_.height);
+    }
+    return known;
+  }
+
+  void expect_image() const {
+    if (is_organized(cloud_)) return;
+    if (!camera_.intrinsics)
+      throw InputError(
+          {"", 0, "camera"}, "neither the camera's intrinsics nor an organized cloud, which shows them",
+          "--camera FILE (of ROS, Open3D, BOP or `tanglebin scan --depth`), or a scene file with "
+          "[camera]");
+    if (camera_.intrinsics->width == 0)
+      throw InputError(
+          {"", 0, "camera"}, "a camera without the size of its image, and a cloud that is not organized",
+          "the depth image, an organized cloud, or a scene file with width and height in [camera]");
+  }
+
+  std::optional<Isometry3d> known_pose(Notes& notes) const {
+    if (camera_.pose) return camera_.pose;
+    if (cloud_.viewpoint) {
+      notes.emplace_back("the camera's pose is the cloud's VIEWPOINT");
+      return cloud_.viewpoint;
+    }
+    if (camera_.frame == CloudFrame::world)
+      throw InputError({"", 0, "camera"},
+                       "points in the world frame, and nothing that says where the camera is",
+                       "camera_to_world, or position and look_at, in the scene file's [camera]; or --frame "
+                       "camera, if the points are as the camera gave them");
+    return std::nullopt;
+  }
+
+  // From the frame of the points into the camera's.
+  static Isometry3d motion_from(CloudFrame frame, const Isometry3d& pose) {
+    return frame == CloudFrame::camera ? Isometry3d::Identity() : pose.inverse();
+  }
+
+  Candidate candidate(CloudFrame frame, const Isometry3d& pose) const {
+    const Isometry3d motion = motion_from(frame, pose);
+    if (const std::optional<Intrinsics> known = known_intrinsics())
+      return {frame, {}, share_in_image(cloud_, Eigen::Affine3d(motion.matrix()), *known)};
+    const std::optional<FittedIntrinsics> fitted = fit_intrinsics(cloud_, motion);
+    return {frame, fitted, fitted && fits(*fitted) ? 1.0 : 0.0};
+  }
+
+  Candidate choose(const std::optional<Isometry3d>& pose, Notes& notes) const {
+    if (camera_.frame) return candidate(*camera_.frame, pose.value_or(Isometry3d::Identity()));
+    const Candidate in_camera = candidate(CloudFrame::camera, Isometry3d::Identity());
+    if (!pose || !extent(cloud_)) return choose_without_pose(in_camera, notes);
+    const Candidate in_world = candidate(CloudFrame::world, *pose);
+    if (pose->isApprox(Isometry3d::Identity())) return in_world;
+    return choose(in_camera, in_world, notes);
+  }
+
+  Candidate choose_without_pose(const Candidate& in_camera, Notes& notes) const {
+    constexpr double half = 0.5;
+    if (extent(cloud_) && in_camera.share < half)
+      throw InputError(
+          {"", 0, "camera"},
+          fmt::format("in the camera's frame, {}; if the cloud is in another, give the camera's pose: "
+                      "camera_to_world, or position and look_at, in the scene file's [camera]",
+                      describe(in_camera)));
+    notes.emplace_back("the camera's pose is not known: the world frame is the camera's");
+    return in_camera;
+  }
+
+  Candidate choose(const Candidate& in_camera, const Candidate& in_world, Notes& notes) const {
+    constexpr double most = 0.9;
+    constexpr double half = 0.5;
+    for (const auto& [likely, other] : {std::pair{in_camera, in_world}, {in_world, in_camera}}) {
+      if (likely.share < most || other.share > half) continue;
+      notes.push_back(fmt::format("the cloud is taken to be in the {} frame: there, {}",
+                                  likely.frame == CloudFrame::camera ? "camera's" : "world",
+                                  describe(likely)));
+      return likely;
+    }
+    throw InputError(
+        {"", 0, "frame"},
+        fmt::format("in the camera's frame, {}, and in the world frame, {}; say in which the cloud is: "
+                    "--frame camera or --frame world, or frame in the scene file's [camera]",
+                    describe(in_camera), describe(in_world)));
+  }
+
+  std::string describe(const Candidate& candidate) const {
+    if (camera_.intrinsics)
+      return fmt::format("{} of the points are in the camera's image", percent(candidate.share));
+    if (!candidate.fitted) return "too few points are in front of the camera";
+    if (is_image(*candidate.fitted) && !fits(*candidate.fitted))
+      return "the image is upside down or mirrored: x should point right and y down";
+    return fmt::format("the points are {:.2g} pixels from a pinhole camera's", candidate.fitted->residual);
+  }
+
+  // An organized cloud shows whether a camera file is another's. One that is a part of the image has its
+  // focal length, one that is reduced its field of view.
+  void expect_same_camera(const Intrinsics& known, const Isometry3d& motion) const {
+    if (!is_organized(cloud_)) return;
+    const std::optional<FittedIntrinsics> fitted = fit_intrinsics(cloud_, motion);
+    if (!fitted || !fits(*fitted)) return;
+    const Intrinsics& seen = fitted->intrinsics;
+    const auto is_near = [&](double focal_length) {
+      constexpr double tolerance = 0.05;
+      return std::abs(focal_length - known.fx) <= tolerance * known.fx;
+    };
+    if (is_near(seen.fx) || is_near(seen.fx * known.width / seen.width)) return;
+    throw InputError(
+        {"", 0, "camera"}, fmt::format("a focal length of {:.4g} pixels, fx", known.fx),
+        fmt::format("about {:.4g}, which the organized cloud shows; is the camera another's?", seen.fx));
+  }
+
+  Intrinsics intrinsics_in(const Candidate& chosen, const Isometry3d& pose, Notes& notes) const {
+    if (const std::optional<Intrinsics> known = known_intrinsics()) {
+      expect_same_camera(*known, motion_from(chosen.frame, pose));
+      return *known;
+    }
+    if (!chosen.fitted || !fits(*chosen.fitted))
+      throw InputError(
+          {"", 0, "camera"},
+          fmt::format("the organized cloud does not show its camera: if its rows and columns are an "
+                      "image's, {}; give --camera FILE",
+                      describe(chosen)));
+    const auto& [intrinsics, residual] = *chosen.fitted;
+    notes.push_back(
+        fmt::format("the intrinsics are fitted to the organized cloud, to {:.2g} pixels: fx {:.6g}, fy "
+                    "{:.6g}, cx {:.6g}, cy {:.6g}",
+                    residual, intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy));
+    return intrinsics;
+  }
+
+  const SceneCamera& camera_;
+  const PointCloud& cloud_;
+};
+
+void move(PointCloud& cloud, const Isometry3d& motion) {
+  for (Eigen::Vector3f& point : cloud.points) point = (motion * point.cast<double>()).cast<float>();
+}
+
+RadiusEstimate radius_from(const PointCloud& cloud, const KnownScene& known,
+                           const std::optional<LengthRange>& range) {
+  return range ? estimate_radius(cloud, known, {range->min, range->max}) : estimate_radius(cloud, known);
+}
+
+// A radius that is exactly known, or else 0.
+TubeKind kind_of(const TubeClass& tubes) {
+  TubeKind kind{.radius = 0, .segments = tubes.tree, .length_min = 0, .flat_ends = tubes.flat_ends};
+  if (tubes.radius && tubes.radius->min == tubes.radius->max) kind.radius = tubes.radius->min;
+  if (!tubes.tree.empty()) return kind;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  kind.segments = {{1, 2, tubes.length ? tubes.length->max : infinity}};
+  kind.length_min = tubes.length ? tubes.length->min : 0;
+  return kind;
+}
+
+void find_kinds(const Scene& scene, ResolvedScene& resolved) {
+  const std::vector<TubeClass> classes = scene.tubes.empty() ? std::vector<TubeClass>(1) : scene.tubes;
+  resolved.known.kinds.clear();
+  for (const TubeClass& tubes : classes) {
+    TubeKind kind = kind_of(tubes);
+    if (kind.radius == 0) {
+      if (classes.size() > 1)
+        throw InputError({"", 0, "radius"},
+                         fmt::format("{} classes of tubes, one without a radius", classes.size()),
+                         "a number for each; only the radius of a single class can be estimated");
+      const RadiusEstimate found = radius_from(resolved.cloud, resolved.known, tubes.radius);
+      kind.radius = found.radius;
+      resolved.notes.push_back(
+          fmt::format("the radius is estimated: {:.5f} m, to {:.5f} m", found.radius, found.standard_error));
+    }
+    resolved.known.kinds.push_back(kind);
+  }
+  if (scene.tubes.empty()) resolved.notes.emplace_back("the tubes' length is not known");
+}
+
+}  // namespace
+
+ResolvedScene resolve_without_tubes(const Scene& scene, const PointCloud& cloud) {
+  validate(scene);
+  ResolvedScene resolved;
+  resolved.cloud = in_metres(cloud, unit_of(scene, cloud, resolved.notes));
+  const auto [camera, frame] = CameraSearch(scene.camera, resolved.cloud).find(resolved.notes);
+  resolved.known.camera = camera;
+  if (frame == CloudFrame::camera && resolved.known.camera.pose.matrix() != Eigen::Matrix4d::Identity())
+    move(resolved.cloud, resolved.known.camera.pose);
+  resolved.known.support = scene.support.value_or(Support{.shape = Support::Shape::nothing});
+  if (!scene.support)
+    resolved.notes.emplace_back(
+        "nothing is known of a bin or a floor; a scene file's [support] says what there is");
+  return resolved;
+}
+
+ResolvedScene resolve(const Scene& scene, const PointCloud& cloud) {
+  ResolvedScene resolved = resolve_without_tubes(scene, cloud);
+  find_kinds(scene, resolved);
+  validate(resolved.known);
+  return resolved;
+}
+
+}  // namespace tanglebin
