@@ -59,22 +59,8 @@ PixelGrid::PixelGrid(const std::vector<Eigen::Vector3f>& points, const Camera& c
   }
 }
 
-PixelGrid::Run PixelGrid::run(int row, int first, int last) const {
-  first = std::max(first, left_);
-  last = std::min(last, left_ + width_ - 1);
-  if (row < top_ || row >= top_ + height_ || first > last) return {};
-  const std::uint32_t begin = starts_[position_of({first, row})];
-  const std::uint32_t end = starts_[position_of({last, row}) + 1];
-  return {x_.data() + begin, y_.data() + begin, z_.data() + begin, static_cast<int>(end - begin), begin};
-}
-
 double PixelGrid::pixels_across(double length, const Eigen::Vector3f& point) const {
   return length * std::max(camera_.fx, camera_.fy) / depth_of(camera_, point.cast<double>());
-}
-
-std::size_t PixelGrid::position_of(const PixelPosition& pixel) const {
-  return static_cast<std::size_t>(pixel.row - top_) * static_cast<std::size_t>(width_) +
-         static_cast<std::size_t>(pixel.column - left_);
 }
 
 }  // namespace tanglebin

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -35,14 +36,25 @@ public:
 
   const Camera& camera() const { return camera_; }
 
-  /// The points in columns first … last of a row. Columns and rows may lie outside the image.
-  Run run(int row, int first, int last) const;
+  /// The points in columns first … last of a row. Columns and rows may lie outside the image. Inline: the
+  /// axis method calls it for every row around every point.
+  Run run(int row, int first, int last) const {
+    first = std::max(first, left_);
+    last = std::min(last, left_ + width_ - 1);
+    if (row < top_ || row >= top_ + height_ || first > last) return {};
+    const std::uint32_t begin = starts_[position_of({first, row})];
+    const std::uint32_t end = starts_[position_of({last, row}) + 1];
+    return {x_.data() + begin, y_.data() + begin, z_.data() + begin, static_cast<int>(end - begin), begin};
+  }
 
   /// The size in pixels of a length (m) at a point.
   double pixels_across(double length, const Eigen::Vector3f& point) const;
 
 private:
-  std::size_t position_of(const PixelPosition& pixel) const;
+  std::size_t position_of(const PixelPosition& pixel) const {
+    return static_cast<std::size_t>(pixel.row - top_) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(pixel.column - left_);
+  }
 
   Camera camera_;
   int left_ = 0;  // the part of the image that contains points
