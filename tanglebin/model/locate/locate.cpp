@@ -292,17 +292,24 @@ BinFit best_fit(const Task& task, const std::vector<Candidate>& candidates) {
   return fit_bin(task.view, task.known, candidates.front().pose);
 }
 
-void expect_no_rival(const Task& task, const Candidate& best, const std::vector<Candidate>& others) {
-  const Bin& bin = task.known.bin;
-  constexpr double as_good = 0.6;
+bool are_same(const Bin& bin, const Isometry3d& first, const Isometry3d& second) {
   constexpr double apart = 0.01;  // m
   constexpr double turned = 2 * degree;
+  const auto [distance, angle] = difference(bin, first, second);
+  return distance < apart && angle < turned;
+}
+
+// Another place for the bin, where it fits about as well.
+void expect_no_rival(const Task& task, const Candidate& best, const std::vector<Candidate>& others) {
+  constexpr double as_good = 0.6;
+  const Bin& bin = task.known.bin;
   for (const Candidate& rival : others) {
-    const auto [distance, angle] = difference(bin, best.pose, rival.pose);
-    if ((distance < apart && angle < turned) || !is_possible(rival, bin)) continue;
+    if (are_same(bin, best.pose, rival.pose) || !is_possible(rival, bin)) continue;
     if (rival.score < as_good * best.score) continue;
     if (advantage(rival, best) < as_good * advantage(best, rival)) continue;
-    if (!is_determined(bin, fit_bin(task.view, task.known, rival.pose))) continue;
+    const BinFit fit = fit_bin(task.view, task.known, rival.pose);
+    if (!is_determined(bin, fit) || are_same(bin, best.pose, fit.pose)) continue;
+    const auto [distance, angle] = difference(bin, best.pose, fit.pose);
     refuse(fmt::format("two poses fit equally well; one is {:.0f} mm and {:.0f}° from the other",
                        1e3 * distance, angle / degree));
   }
