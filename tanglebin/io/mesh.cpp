@@ -103,8 +103,9 @@ TubeMesh mesh_of(const Tube& tube) {
   TubeMesh mesh{.label = tube.id, .vertices = {}, .triangles = {}};
   for (const Edge& edge : tube.edges) {
     const Capsule part = capsule(tube, edge);
-    add_part(mesh, part,
-             profile(part, tube.flat_ends && degrees[edge.from] == 1, tube.flat_ends && degrees[edge.to] == 1));
+    add_part(
+        mesh, part,
+        profile(part, tube.flat_ends && degrees[edge.from] == 1, tube.flat_ends && degrees[edge.to] == 1));
   }
   return mesh;
 }
