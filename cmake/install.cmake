@@ -10,15 +10,17 @@ set(public_headers
   geometry/bin geometry/camera geometry/capsule geometry/intersect geometry/labels geometry/mass_properties geometry/ray
   geometry/segment geometry/support geometry/tube
   cloud/cloud cloud/images cloud/label_colors
-  io/configuration io/images io/pcd io/ply io/read_cloud
+  io/configuration io/images io/mesh io/pcd io/ply io/read_cloud
   generate/generate generate/tube_spec
   settle/overlap settle/settle settle/spawn
   scan/scan scan/scan_output scan/scanner scan/sensor
   recipe/case_id recipe/recipe
   simulate/simulate simulate/world_sdf
-  model/model_tubes model/parameters model/locate/locate model/axis/axis_settings model/paper/paper_settings model/scene/known_scene model/scene/model model/scene/segment_tree
+  model/model_tubes model/parameters model/tubes_json model/locate/locate model/axis/axis_settings
+  model/paper/paper_settings model/scene/evidence model/scene/finding model/scene/known_scene model/scene/model
+  model/scene/segment_tree
   model/scene/shared_settings
-  scene/camera_file scene/read_scene scene/resolve_scene scene/scene scene/write_scene
+  scene/camera_file scene/read_measurement scene/read_scene scene/resolve_scene scene/scene scene/write_scene
   score/confusion score/metrics score/score score/score_clouds score/score_tubes)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)

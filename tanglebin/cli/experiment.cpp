@@ -36,6 +36,7 @@ struct ExperimentArguments {
   ManyCases many;
   ModelOptions model;
   ProgressStyle progress = ProgressStyle::line;
+  bool keep = false;
   bool json = false;
 };
 
@@ -131,7 +132,8 @@ void print_text(const ExperimentArguments& arguments, const ExperimentSummary& s
 void experiment(const ExperimentArguments& arguments) {
   ExperimentSettings settings{.methods = methods_of(arguments),
                               .ratios = parse_ratios(arguments.ratios, "--downsample"),
-                              .model = settings_of(arguments.model)};
+                              .model = settings_of(arguments.model),
+                              .keep_models = arguments.keep};
   if (arguments.scene) settings.scene = scene_named(*arguments.scene, "");
   expect_dataset(arguments.dataset);
   const Dataset dataset = read_dataset(arguments.dataset);
@@ -181,6 +183,8 @@ void add_experiment(CLI::App& app) {
   add_options(*command, arguments->many);
   add_options(*command, arguments->model);
   add_progress_option(*command, arguments->progress);
+  command->add_flag("--keep", arguments->keep,
+                    "Keep the labelled clouds and the tubes, in models/ of the results");
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin experiment dataset --out results --downsample 0.3 --tubes 10 --cases 1-3\n"

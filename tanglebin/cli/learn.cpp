@@ -1,6 +1,8 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,23 +12,28 @@
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/print.hpp"
+#include "tanglebin/experiment/learn_confidence.hpp"
 #include "tanglebin/experiment/learn_links.hpp"
 
 namespace tanglebin::cli {
 namespace {
 
 struct LearnArguments {
-  std::string dataset;
+  std::vector<std::string> datasets;
+  bool confidence = false;
   bool json = false;
 };
 
-std::vector<EndExample> examples_of(const Dataset& dataset) {
-  std::vector<EndExample> ends;
-  for (const CaseId& id : cases(dataset)) {
-    const std::vector<EndExample> of_case = end_examples(dataset, id);
-    ends.insert(ends.end(), of_case.begin(), of_case.end());
+// The examples from every case of the datasets.
+template <typename Example>
+std::vector<Example> examples_of(const std::vector<std::string>& datasets,
+                                 std::vector<Example> (*of_case)(const Dataset&, const CaseId&)) {
+  std::vector<Example> all;
+  for (const std::string& directory : datasets) {
+    const Dataset dataset = read_dataset(directory);
+    for (const CaseId& id : cases(dataset)) std::ranges::copy(of_case(dataset, id), std::back_inserter(all));
   }
-  return ends;
+  return all;
 }
 
 /// Links of one kind.
@@ -48,9 +55,55 @@ Count count(const std::vector<EndExample>& ends, LinkKind kind) {
   return {result.links / ends_taken(kind), result.true_links / ends_taken(kind)};
 }
 
-void learn(const LearnArguments& arguments) {
-  expect_dataset(arguments.dataset);
-  const std::vector<EndExample> examples = examples_of(read_dataset(arguments.dataset));
+/// Tubes by their confidence.
+struct Reliability {
+  double from;  ///< the class's least confidence
+  int tubes = 0;
+  int right = 0;
+  double sum = 0;  ///< of the confidences
+};
+
+std::vector<Reliability> reliability(const std::vector<TubeExample>& examples) {
+  std::vector<Reliability> classes;
+  for (const double from : {0.0, 0.5, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995}) classes.push_back({from});
+  for (const auto& [features, is_right] : examples) {
+    const double value = confidence(features);
+    Reliability& its =
+        *std::ranges::find_if(classes.rbegin(), classes.rend(),
+                              [&](const Reliability& candidate) { return value >= candidate.from; });
+    ++its.tubes;
+    its.right += is_right ? 1 : 0;
+    its.sum += value;
+  }
+  std::erase_if(classes, [](const Reliability& of) { return of.tubes == 0; });
+  return classes;
+}
+
+void learn_for_tubes(const LearnArguments& arguments) {
+  const std::vector<TubeExample> examples = examples_of(arguments.datasets, tube_examples);
+  const ConfidenceFeatures weights = learn_confidence(examples);
+  const auto right = std::ranges::count_if(examples, &TubeExample::is_right);
+  nlohmann::ordered_json json{{"tubes", examples.size()}, {"right", right}, {"weights", weights}};
+  for (const auto& [from, tubes, of_these_right, sum] : reliability(examples)) {
+    json["reliability"].push_back(
+        {{"from", from}, {"tubes", tubes}, {"mean_confidence", sum / tubes}, {"right", of_these_right}});
+  }
+  if (arguments.json) {
+    print_json_line(json);
+    return;
+  }
+  print_out("confidence {{{:.4f}}}  from {} tubes, {} right\n", fmt::join(weights, ", "), examples.size(),
+            right);
+  print_out("by the built-in confidence:\n{:>6} {:>6} {:>6} {:>6}\n", "from", "tubes", "mean", "right");
+  for (const auto& of : json["reliability"]) {
+    const double tubes = of["tubes"];
+    print_out("{:>6} {:>6} {:>6.3f} {:>6.3f}\n", of["from"].get<double>(), tubes,
+              of["mean_confidence"].get<double>(), of["right"].get<double>() / tubes);
+  }
+}
+
+void learn_for_links(const LearnArguments& arguments) {
+  const std::vector<EndExample> examples = examples_of(arguments.datasets, end_examples);
   const LinkWeights weights = learn_weights(examples);
   nlohmann::ordered_json json;
   for (const auto& [name, kind] : {std::pair{"chain_ends", LinkKind::chain_ends},
@@ -66,18 +119,29 @@ void learn(const LearnArguments& arguments) {
   if (arguments.json) print_json_line(json);
 }
 
+void learn(const LearnArguments& arguments) {
+  for (const std::string& directory : arguments.datasets) expect_dataset(directory);
+  arguments.confidence ? learn_for_tubes(arguments) : learn_for_links(arguments);
+}
+
 }  // namespace
 
 void add_learn(CLI::App& app) {
   const auto arguments = std::make_shared<LearnArguments>();
   CLI::App* command =
-      app.add_subcommand("learn", "Learn the axis method's link weights from the scenes of a dataset");
-  command->add_option("dataset", arguments->dataset, "Directory of a dataset from `tanglebin generate`")
+      app.add_subcommand("learn", "Learn the axis method's weights from the scenes of a dataset");
+  command->add_option("datasets", arguments->datasets, "Directories of datasets from `tanglebin generate`")
       ->required();
+  command->add_flag(
+      "--confidence", arguments->confidence,
+      "Learn the weights of a tube's confidence instead of those of links, and say how right the "
+      "built-in confidence is");
   command->add_flag("--json", arguments->json, "Print the weights as JSON");
   command->footer(
       "Example:\n  tanglebin learn dataset\n"
-      "The built-in weights are from recipes/learning.toml (docs/algorithm.md).");
+      "The built-in weights are from recipes/learning.toml; those of the confidence from "
+      "recipes/confidence.toml and\n"
+      "recipes/confidence-zivid.toml (docs/algorithm.md).");
   command->callback([arguments] { learn(*arguments); });
 }
 

@@ -45,7 +45,8 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit status: 0 done, 2 bad input, 3 cases failed, 4 faults found, 5 the system refused (disk full, "
       "…),\n"
-      "64 wrong usage, 130 and 143 interrupted, 1 an error of the program itself.");
+      "6 a scan that does not fit its scene or shows no tube, 64 wrong usage, 130 and 143 interrupted, 1 an "
+      "error of the program itself.");
   app.failure_message(usage_message);
   try {
     std::vector<std::string> arguments = with_current_names({argv + 1, argv + argc});

@@ -13,11 +13,11 @@
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/model_options.hpp"
+#include "tanglebin/cli/model_report.hpp"
 #include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/scene_options.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
-#include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/pcd.hpp"
 #include "tanglebin/io/ply.hpp"
@@ -36,7 +36,7 @@ namespace {
 struct ModelArguments {
   std::string cloud;
   std::string out;
-  std::optional<std::string> tubes;
+  ModelFiles files;
   std::string method = name_of(Method::axis);
   std::string ratio = "1";
   ModelOptions model;
@@ -67,12 +67,14 @@ void print_summary(const ModelArguments& arguments, const KnownScene& known, con
       json["steps"].push_back(
           {{"name", step.name}, {"seconds", step.seconds}, {"count", step.count}, {"of", step.of}});
     }
+    add_tubes(json, model);
     print_json_line(json);
     return;
   }
   for (const Step& step : model.steps) {
     print_out("{:<8} {:>8.3f} s  {:>7} {}\n", step.name, step.seconds, step.count, step.of);
   }
+  print_tubes(model);
 }
 
 double ratio_of(const ModelArguments& arguments) {
@@ -115,7 +117,7 @@ void write_pictures(const ResolvedScene& scene, const ModelSettings& settings,
 
 std::vector<Output> outputs(const ModelArguments& arguments) {
   std::vector<Output> files{{"--out", arguments.out, cloud_extensions}};
-  if (arguments.tubes) files.push_back({"--modelled-tubes", *arguments.tubes, {".txt"}});
+  for (Output& output : outputs(arguments.files)) files.push_back(std::move(output));
   return files;
 }
 
@@ -134,13 +136,11 @@ void model_cloud(const ModelArguments& arguments) {
   const Model model =
       with_file(arguments.cloud, [&] { return model_tubes(resolved.cloud, resolved.known, settings); });
   write_output(arguments.out, cloud_bytes(measured.cloud, model, arguments.out));
-  if (arguments.tubes) {
-    std::ostringstream tubes;
-    write_configuration(tubes, model.tubes);
-    write_output(*arguments.tubes, tubes.str());
-  }
+  write(arguments.files, model);
   if (arguments.debug_directory) write_pictures(resolved, settings, arguments);
   if (!take_standard_output(outputs(arguments))) print_summary(arguments, resolved.known, model);
+  print_findings(model, arguments.cloud);
+  expect_usable(model);
 }
 
 }  // namespace
@@ -156,8 +156,7 @@ void add_model(CLI::App& app) {
       ->add_option("--out", arguments->out,
                    "The same cloud with labels: .ply or .pcd; - for PLY on standard output")
       ->required();
-  command->add_option("--modelled-tubes", arguments->tubes,
-                      "Also write the tubes: .txt (docs/formats.md); - for standard output");
+  add_options(*command, arguments->files);
   command->add_option("--method", arguments->method, "Method: axis or paper")->capture_default_str();
   command
       ->add_option("--downsample", arguments->ratio,

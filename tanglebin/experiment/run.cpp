@@ -14,7 +14,9 @@ namespace tanglebin {
 namespace {
 
 TubeKind known_kind(const TubeSpec& spec) {
-  return {.radius = spec.radius, .segments = {spec.segments.begin(), spec.segments.end()}};
+  TubeKind kind{.radius = spec.radius, .segments = {spec.segments.begin(), spec.segments.end()}};
+  kind.length_min = kind.length();
+  return kind;
 }
 
 PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int32_t> labels) {
@@ -38,10 +40,12 @@ KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
     const auto same = std::ranges::find(known.kinds, kind.radius, &TubeKind::radius);
     if (same == known.kinds.end()) {
       known.kinds.push_back(kind);
-    } else if (std::pair(kind.segments.size(), kind.length()) >
-               std::pair(same->segments.size(), same->length())) {
-      *same = kind;
+      continue;
     }
+    const double shortest = std::min(same->length_min, kind.length_min);
+    if (std::pair(kind.segments.size(), kind.length()) > std::pair(same->segments.size(), same->length()))
+      *same = kind;
+    same->length_min = shortest;
   }
   return known;
 }

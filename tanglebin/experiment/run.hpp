@@ -17,8 +17,9 @@ namespace tanglebin {
 struct ExperimentSettings {
   std::vector<Method> methods = tanglebin::methods();  ///< in the order of methods(), without duplicates
   std::vector<double> ratios;                          ///< ascending, each in (0, 1]
-  ModelSettings model{};  ///< its seed is combined with each case's name; method and ratio are ignored
-  Scene scene{};          ///< what to tell the methods instead of what the recipe says
+  ModelSettings model{};     ///< its seed is combined with each case's name; method and ratio are ignored
+  Scene scene{};             ///< what to tell the methods instead of what the recipe says
+  bool keep_models = false;  ///< also keep the labelled clouds and the tubes (kept_models.hpp)
 };
 
 /// Identifies one run.

@@ -8,6 +8,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/verify_case.hpp"
+#include "tanglebin/experiment/kept_models.hpp"
 #include "tanglebin/experiment/results.hpp"
 #include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/runs/journal.hpp"
@@ -40,7 +41,8 @@ std::string failed_case(const Dataset& dataset, const ExperimentSettings& settin
 }
 
 // Runs everything for one case; returns its journal line.
-std::string run_case(const Dataset& dataset, const ExperimentSettings& settings, const CaseId& id) {
+std::string run_case(const Dataset& dataset, const ExperimentSettings& settings, const CaseId& id,
+                     const std::filesystem::path& directory) {
   const CaseData data = read_case(dataset, id);
   if (std::ranges::none_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; })) {
     return failed_case(dataset, settings, id, {FailureOf::scene, "no point of the cloud is on a tube"});
@@ -53,10 +55,22 @@ std::string run_case(const Dataset& dataset, const ExperimentSettings& settings,
       const Clock::time_point start = Clock::now();
       const Model model = model_case(known, data, run, settings);
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      if (settings.keep_models) keep_model(directory, run, data.cloud, model);
       return {result_json(run, sha256, model, score_model(data, model)), times_json(run, model, seconds)};
     } catch (const InputError& error) {
       return {failure_json(run, sha256, {FailureOf::method, complaint_of(error)})};
     }
+  });
+}
+
+// Whether the models of a finished case were kept; a run that failed has none.
+bool has_models(const std::filesystem::path& directory, const FinishedRuns& finished,
+                const ExperimentSettings& settings, const CaseId& id) {
+  return std::ranges::all_of(settings.methods, [&](Method method) {
+    return std::ranges::all_of(settings.ratios, [&](double ratio) {
+      const RunId run{method, id, ratio};
+      return finished.results.at(run).failure || has_model(directory, run);
+    });
   });
 }
 
@@ -80,7 +94,8 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
   fold_journal(before);
   std::vector<CaseId> missing;
   for (const CaseId& id : wanted) {
-    if (!before.has(id, settings)) missing.push_back(id);
+    if (!before.has(id, settings) || (settings.keep_models && !has_models(directory, before, settings, id)))
+      missing.push_back(id);
   }
   ExperimentSummary summary;
   summary.progress.wanted = wanted.size();
@@ -106,7 +121,7 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
   observer.begun(missing);
   try {
     run_in_workers(jobs, missing.size(),
-                   [&](std::size_t task) { return run_case(dataset, settings, missing[task]); },
+                   [&](std::size_t task) { return run_case(dataset, settings, missing[task], directory); },
                    {.done = record,
                     .failed = give_up,
                     .tick = [&] { observer.progress(summary.progress); },

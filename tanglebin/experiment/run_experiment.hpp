@@ -25,8 +25,9 @@ struct ExperimentSummary {
 };
 
 /// Models and scores the wanted cases, which the dataset must have, with every method and ratio in `jobs`
-/// processes. Writes experiment.json, results.jsonl, times.jsonl and generation.jsonl (docs/formats.md) to
-/// `directory`. Existing results are kept, so an interrupted run can be resumed and cases can be added. The
+/// processes. Writes experiment.json, results.jsonl, times.jsonl and generation.jsonl (docs/formats.md), and
+/// the models if they are to be kept, to `directory`. Existing results are kept, so an interrupted run can be
+/// resumed and cases can be added; a case whose models are to be kept, but are not there, is run again. The
 /// bytes of results.jsonl depend only on dataset, settings and cases. A run that cannot be modelled or scored
 /// has a line with the reason. So have all runs of a case that crashes its worker twice; the next call tries
 /// such a case again, and also a case whose files have changed since. Returns early, with what is done, on

@@ -2,31 +2,27 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Geometry>
-
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/model/axis/axis_method.hpp"
+#include "tanglebin/model/diagnose.hpp"
+#include "tanglebin/model/evidence.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
+#include "tanglebin/model/point_counts.hpp"
 #include "tanglebin/model/scene/support_frame.hpp"
 
 namespace tanglebin {
 namespace {
 
-// A cloud many times larger than the scene is not in metres.
-void check_size(const PointCloud& cloud, const KnownScene& known) {
-  Eigen::AlignedBox3f bounds;
-  for (const Eigen::Vector3f& point : cloud.points) {
-    if (point.allFinite()) bounds.extend(point);
-  }
-  if (bounds.isEmpty()) return;
-  const double size = bounds.sizes().cast<double>().maxCoeff();
-  constexpr double too_many_times = 100;
-  if (known.support.shape == Support::Shape::bin && size > too_many_times * known.support.bin.length) {
-    throw InputError({}, fmt::format("points up to {:.4g} m apart", size),
-                     fmt::format("a scan, in metres, of a bin that is {:.4g} m long; are these millimetres?",
-                                 known.support.bin.length));
-  }
+// In the support's frame.
+Model model_here(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings) {
+  const auto& [method, ratio, seed, axis, paper] = settings;
+  const bool as_in_paper = method == Method::paper;
+  Model model = as_in_paper ? model_as_in_paper(cloud, known, ratio, seed, paper).model
+                            : model_by_axes(cloud, known, ratio, seed, axis).model;
+  count_points(model, cloud, known, as_in_paper ? paper.filter : axis.filter);
+  weigh(model, cloud, known);
+  return model;
 }
 
 }  // namespace
@@ -71,15 +67,15 @@ void validate(const KnownScene& known, const ModelSettings& settings) {
 
 Model model_tubes(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings) {
   validate(known, settings);
-  check_size(cloud, known);
-  const auto model_here = [&](const PointCloud& here, const KnownScene& known_here) {
-    const auto& [method, ratio, seed, axis, paper] = settings;
-    return method == Method::paper ? model_as_in_paper(here, known_here, ratio, seed, paper).model
-                                   : model_by_axes(here, known_here, ratio, seed, axis).model;
-  };
-  if (is_in_support_frame(known)) return model_here(cloud, known);
-  const Seen seen = in_support_frame(cloud, known);
-  return in_world_frame(model_here(seen.cloud, seen.known), known);
+  Model model;
+  if (is_in_support_frame(known)) {
+    model = model_here(cloud, known, settings);
+  } else {
+    const Seen seen = in_support_frame(cloud, known);
+    model = in_world_frame(model_here(seen.cloud, seen.known, settings), known);
+  }
+  model.findings = diagnose(cloud, known, model, settings.ratio);
+  return model;
 }
 
 }  // namespace tanglebin

@@ -43,9 +43,10 @@ void expect_available(Method method);
 void validate(const KnownScene& known, const ModelSettings& settings);
 
 /// Models the tubes of a cloud and labels every point, including those left out by downsampling. The cloud is
-/// in metres, world frame, and holds any subset of what the known camera saw, in any order; its labels and
-/// colours are ignored. The result depends only on the arguments. Throws InputError as validate() does, and
-/// if the cloud cannot show this scene, for example because it is in millimetres. The messages name no file.
+/// in metres, world frame, and holds any subset of what the known camera saw, in any order; points that are
+/// not finite become null, and its labels and colours are ignored. The result depends only on the arguments.
+/// It says how sure each tube is, and what does not fit: is_refused() if the cloud cannot show this scene,
+/// for example because it is in millimetres. Throws InputError as validate() does. The messages name no file.
 Model model_tubes(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings = {});
 
 }  // namespace tanglebin

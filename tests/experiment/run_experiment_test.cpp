@@ -17,6 +17,8 @@
 
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/experiment/results.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/ply.hpp"
 #include "tanglebin/runs/file_lock.hpp"
 #include "tests/experiment/small_dataset.hpp"
 #include "tests/support/complaint.hpp"
@@ -184,6 +186,32 @@ TEST_F(RunExperiment, AnInterruptedRunGoesOnLater) {
   EXPECT_FALSE(std::filesystem::exists(parts / "journal.jsonl"));
   EXPECT_EQ(run(parts).progress.found, first.progress.made);
   EXPECT_EQ(results_in(parts), results_in(whole));
+}
+
+TEST_F(RunExperiment, KeepsTheModelsWhereAskedAndMakesThoseThatAreMissing) {
+  const TemporaryDirectory without;
+  const TemporaryDirectory with;
+  const std::vector<CaseId> wanted = {{"A", 3, 1}, {"A", 3, 2}};
+  run(without, wanted);
+  EXPECT_FALSE(std::filesystem::exists(without / "models"));
+
+  settings_.methods = {Method::axis};
+  settings_.keep_models = true;
+  EXPECT_EQ(run(with, wanted).progress.made, 2U);
+  const auto files = results_in(with);
+  const Dataset dataset = dataset_.read();
+  const RunId id{Method::axis, {"A", 3, 2}, 0.6};
+  const CaseData data = read_case(dataset, id.scene);
+  const Model model = model_case(known_scene(recipe_of(dataset, id.scene), id.scene), data, id, settings_);
+  EXPECT_EQ(read_ply(with / "models/axis/0.6/A3/plys/2.ply").labels, model.labels);
+  EXPECT_EQ(read_configuration(with / "models/axis/0.6/A3/tube_configurations/2.txt").size(),
+            model.tubes.size());
+  EXPECT_EQ(nlohmann::json::parse(files.at("models/axis/1/A3/tubes/1.json")).at("format"), 1);
+
+  EXPECT_EQ(run(with, wanted).progress.found, 2U);
+  std::filesystem::remove(with / "models/axis/0.6/A3/plys/2.ply");
+  EXPECT_EQ(run(with, wanted).progress.made, 1U);
+  EXPECT_EQ(results_in(with), files);
 }
 
 /// What each line of results.jsonl says has failed, and how often.

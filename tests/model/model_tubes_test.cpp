@@ -156,11 +156,14 @@ TEST_P(ModelTubes, TakesDuplicatePoints) {
   EXPECT_EQ(model.labels.size(), 2 * points);
 }
 
-TEST_P(ModelTubes, SaysThatACloudIsInMillimetres) {
+TEST_P(ModelTubes, RefusesACloudInMillimetres) {
   PointCloud cloud = scanned(three_tubes());
   for (Eigen::Vector3f& point : cloud.points) point *= 1000;
-  EXPECT_THAT(complaint(cloud, paper_scene(), 1), HasSubstr("found points up to"));
-  EXPECT_THAT(complaint(cloud, paper_scene(), 1), HasSubstr("millimetres?"));
+  const Model model = modelled(cloud);
+  EXPECT_TRUE(model.is_refused());
+  EXPECT_THAT(model.findings.at(0).message, HasSubstr("--unit mm"));
+  EXPECT_THAT(model.tubes, IsEmpty());
+  EXPECT_THAT(model.labels, Each(null_label));
 }
 
 TEST_P(ModelTubes, RefusesASceneThatIsNone) {

@@ -21,6 +21,18 @@ endif()
 
 run(${work}/installed/bin/tanglebin --version)
 
+# Models a scan of the minimal example's scene.
+run(${CMAKE_COMMAND} -S ${SOURCE}/examples/model_a_scan -B ${work}/model_a_scan -G ${GENERATOR}
+    -D CMAKE_PREFIX_PATH=${work}/installed -D CMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${work}/model_a_scan)
+run(${work}/installed/bin/tanglebin generate ${SOURCE}/recipes/set-a.toml --out ${work}/dataset --tubes 3 --cases 1)
+execute_process(COMMAND ${work}/model_a_scan/model_a_scan ${work}/dataset/A3/plys/1.ply ${SOURCE}/scenes/paper.toml
+                OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+message("${output}")
+if(NOT output MATCHES "tube 3: ")
+  message(FATAL_ERROR "found the output above, expected three tubes")
+endif()
+
 # A program that only models needs nothing of the simulation.
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/modelling -B ${work}/modelling -G ${GENERATOR}
     -D CMAKE_PREFIX_PATH=${work}/installed -D CMAKE_BUILD_TYPE=Release)

@@ -1,12 +1,14 @@
 #include "tanglebin/model/axis/axis_method.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <optional>
 
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/model/axis/choose_links.hpp"
+#include "tanglebin/model/axis/join_odds.hpp"
 #include "tanglebin/model/axis/kinds.hpp"
 #include "tanglebin/model/axis/length.hpp"
 #include "tanglebin/model/axis/ramps.hpp"
@@ -47,6 +49,20 @@ std::vector<Ball> space_of_other_kinds(const std::vector<AxisSteps>& kinds, cons
     }
   }
   return space;
+}
+
+// What the steps say of each tube: its kind, and the odds of its joins.
+std::vector<TubeEvidence> evidence_of(const AxisSteps& steps, std::size_t kind, double length_max) {
+  const std::vector<TubeJoin> joins = joins_of(steps.fragments, steps.links, steps.chosen, length_max);
+  std::vector<TubeEvidence> evidence;
+  for (const std::vector<std::size_t>& fragments : steps.tubes) {
+    evidence.push_back({.kind = kind, .joins = {}});
+    for (std::size_t i = 0; i < joins.size(); ++i) {
+      if (std::ranges::binary_search(fragments, steps.links[steps.chosen[i]].fragment))
+        evidence.back().joins.push_back(joins[i]);
+    }
+  }
+  return evidence;
 }
 
 double smallest_radius(const std::vector<TubeKind>& kinds) {
@@ -144,6 +160,9 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
       model.tubes.push_back(std::move(tube));
       return false;
     });
+    const auto index = static_cast<std::size_t>(&kind - known.kinds.data());
+    std::ranges::move(evidence_of(steps, index, steps.length * (1 + settings.link.length_tolerance)),
+                      std::back_inserter(model.evidence));
   });
   clock.end_step("fit", model.tubes.size(), "tubes");
 

@@ -66,6 +66,7 @@ PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, d
   result.joins = join_cylinders(result.cylinders, seen, kind.length(), settings.join);
   const std::vector<JoinedTube> tubes = joined_tubes(result.cylinders, result.joins, kind.radius);
   for (const JoinedTube& joined : tubes) model.tubes.push_back(joined.tube);
+  model.evidence.resize(tubes.size());
   clock.end_step("join", model.tubes.size(), "tubes");
 
   // "In order to prepare the labeled point cloud, …"

@@ -9,8 +9,6 @@
 
 namespace tanglebin {
 
-namespace {
-
 Eigen::AlignedBox3d crop_box(const Support& support, double overhang) {
   const Eigen::Vector3d far = Eigen::Vector3d::Constant(20);  // m; keeps the indices of grids in range
   if (support.shape == Support::Shape::nothing) return {-far, far};
@@ -21,8 +19,6 @@ Eigen::AlignedBox3d crop_box(const Support& support, double overhang) {
   if (support.shape == Support::Shape::plane) box.max().z() = far.z();
   return box.intersection({-far, far});
 }
-
-}  // namespace
 
 Cropped crop(const PointCloud& cloud, const Support& support, const FilterSettings& settings) {
   const std::vector<Eigen::AlignedBox3d> parts = solid_parts(support);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,6 +18,9 @@ struct Cropped {
   std::vector<std::size_t> outside;  ///< too far from the support
   std::vector<std::size_t> near{};   ///< of those kept, the ones within the support's margin
 };
+
+/// The box, m, in the support's frame, around the points that crop() keeps.
+Eigen::AlignedBox3d crop_box(const Support& support, double overhang);
 
 /// Sorts the points (m, in the support's frame) by the known support. The crop box follows the floor and
 /// walls of a bin; tubes may stick out over its rim. Above a plane and without a support, only what is more

@@ -53,7 +53,7 @@ void validate(const KnownScene& known) {
   std::set<double> radii;
   for (const TubeKind& kind : known.kinds) {
     validate_radius(kind.radius);
-    if (kind.branches() || kind.length_is_known())
+    if (kind.branches() || !std::isinf(kind.length()))
       validate(kind.segments, kind.branches() ? "tree" : "length");
     if (known.support.shape == Support::Shape::bin) validate_fit(kind, known.support.bin);
     if (!radii.insert(kind.radius).second)

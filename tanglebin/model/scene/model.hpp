@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "tanglebin/geometry/tube.hpp"
+#include "tanglebin/model/scene/evidence.hpp"
+#include "tanglebin/model/scene/finding.hpp"
 
 namespace tanglebin {
 
@@ -23,6 +26,15 @@ struct Model {
   std::vector<std::int32_t> labels;   ///< for each point of the cloud: a tube's id, bin_label or null_label
   std::vector<std::size_t> filtered;  ///< points that the filter kept, ascending; Section 5 scores these
   std::vector<Step> steps;            ///< in the order in which they ran
+  std::vector<TubeEvidence> evidence{};  ///< for each tube: how sure it is
+  PointCounts counts{};
+  std::vector<Finding> findings{};  ///< what does not fit: errors, then warnings; empty if all is well
+
+  /// Whether an error was found: then the tubes are not to be used.
+  bool is_refused() const {
+    return std::ranges::any_of(
+        findings, [](const Finding& finding) { return finding.severity == Finding::Severity::error; });
+  }
 };
 
 }  // namespace tanglebin

@@ -32,7 +32,14 @@ Seen in_support_frame(const PointCloud& cloud, const KnownScene& known) {
 }
 
 Model in_world_frame(Model model, const KnownScene& known) {
-  for (Tube& tube : model.tubes) transform(tube, frame_of(known));
+  const Isometry3d to_world = frame_of(known);
+  for (Tube& tube : model.tubes) transform(tube, to_world);
+  for (TubeEvidence& evidence : model.evidence) {
+    for (TubeJoin& join : evidence.joins) {
+      join.from = to_world * join.from;
+      join.to = to_world * join.to;
+    }
+  }
   return model;
 }
 

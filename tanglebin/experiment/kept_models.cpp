@@ -1,0 +1,43 @@
+#include "tanglebin/experiment/kept_models.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "tanglebin/cloud/label_colors.hpp"
+#include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/ply.hpp"
+#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/model/tubes_json.hpp"
+
+namespace tanglebin {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> files_of(const RunId& run) {
+  const fs::path folder = fs::path("models") / name_of(run.method) / fmt::format("{}", run.ratio);
+  return {folder / file_of(run.scene, "plys", "ply"),
+          folder / file_of(run.scene, "tube_configurations", "txt"),
+          folder / file_of(run.scene, "tubes", "json")};
+}
+
+void keep_model(const fs::path& directory, const RunId& run, const PointCloud& cloud, const Model& model) {
+  std::ostringstream points;
+  write_ply(points, labelled(cloud, model.labels));
+  std::ostringstream tubes;
+  write_configuration(tubes, model.tubes);
+  const std::vector<std::string> contents = {points.str(), tubes.str(), tubes_json(model) + '\n'};
+  const std::vector<fs::path> files = files_of(run);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    make_directories((directory / files[i]).parent_path());
+    write_file(directory / files[i], contents[i]);
+  }
+}
+
+bool has_model(const fs::path& directory, const RunId& run) {
+  return std::ranges::all_of(files_of(run),
+                             [&](const fs::path& file) { return fs::exists(directory / file); });
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/model/confidence.hpp"
+
+namespace tanglebin {
+
+/// A modelled tube, and whether it is one whole true tube, as confidence() has it.
+struct TubeExample {
+  ConfidenceFeatures features;
+  bool is_right;
+};
+
+/// The tubes that the axis method finds in the cloud of a case in the dataset. Throws InputError as
+/// read_case() does.
+std::vector<TubeExample> tube_examples(const Dataset& dataset, const CaseId& id);
+
+/// The weights with which the examples are likeliest: logistic regression, solved by Newton's method with a
+/// ridge of 0.1.
+ConfidenceFeatures learn_confidence(const std::vector<TubeExample>& examples);
+
+}  // namespace tanglebin

@@ -1,0 +1,31 @@
+#include "tanglebin/model/confidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tanglebin {
+
+ConfidenceFeatures features_of(const TubeEvidence& evidence, const TubeKind& kind) {
+  constexpr double tens = 10;
+  constexpr double most = 2;
+  double margin = most;
+  for (const TubeJoin& join : evidence.joins) margin = std::min(margin, join.margin / tens);
+  const double lacking = kind.length_min > 0 ? std::max(0.0, 1 - evidence.length / kind.length_min) : 0;
+  const double excess = kind.length_is_known() ? std::max(0.0, evidence.length / kind.length() - 1) : 0;
+  return {1,
+          margin,
+          lacking,
+          excess,
+          1 - evidence.coverage(),
+          std::min(1.0, evidence.residual / kind.radius),
+          std::min(1.0, std::abs(evidence.radius_error) / kind.radius),
+          std::log(std::max(1.0, evidence.visible_length / kind.radius))};
+}
+
+double confidence(const ConfidenceFeatures& features, const ConfidenceFeatures& weights) {
+  const double log_odds = std::inner_product(features.begin(), features.end(), weights.begin(), 0.0);
+  return 1 / (1 + std::exp(-log_odds));
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,307 @@
+#include "tanglebin/model/diagnose.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/base/median.hpp"
+#include "tanglebin/model/axis/radius.hpp"
+#include "tanglebin/model/remedy.hpp"
+#include "tanglebin/model/scene/support_frame.hpp"
+#include "tanglebin/model/view_check.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+
+double share_of(std::size_t part, std::size_t all) {
+  return all == 0 ? 0 : static_cast<double>(part) / static_cast<double>(all);
+}
+
+// "7 %", "0.3 %"; never 0 % or 100 % of a part.
+std::string percent(std::size_t part, std::size_t all) {
+  const double value = 100 * share_of(part, all);
+  const bool is_near_an_end = value < 1 || value > 99;
+  return part == all      ? "all"
+         : is_near_an_end ? fmt::format("{:.2g} %", value)
+                          : fmt::format("{:.0f} %", value);
+}
+
+std::string millimetres(double metres) {
+  return fmt::format("{:.3g} mm", 1000 * metres);
+}
+
+std::string metres(double value) {
+  return fmt::format("{:.3g} m", value);
+}
+
+/// Collects what does not fit.
+class Diagnosis {
+public:
+  Diagnosis(const PointCloud& cloud, const KnownScene& known, const Model& model, double ratio)
+      : cloud_(cloud), known_(known), model_(model), counts_(model.counts), ratio_(ratio) {}
+
+  std::vector<Finding> findings() {
+    if (!has_points()) return findings_;
+    look_for_points_in_scene();
+    if (findings_.empty()) look_for_tubes();
+    if (!model_.tubes.empty()) {
+      doubt_radius();
+      doubt_lengths();
+      doubt_sensor();
+    }
+    doubt_unexplained();
+    doubt_view();
+    std::ranges::move(doubts_of_camera(cloud_, known_, model_), std::back_inserter(findings_));
+    std::ranges::move(doubts_of_support(cloud_, known_, model_), std::back_inserter(findings_));
+    return findings_;
+  }
+
+private:
+  void add(Finding::Severity severity, std::string code, std::string message) {
+    findings_.push_back({severity, std::move(code), std::move(message)});
+  }
+  void refuse(std::string code, std::string message) {
+    add(Finding::Severity::error, std::move(code), std::move(message));
+  }
+  void warn(std::string code, std::string message) {
+    add(Finding::Severity::warning, std::move(code), std::move(message));
+  }
+
+  std::size_t valid() const { return counts_.all - counts_.invalid; }
+  std::size_t unseen() const { return counts_.behind_camera + counts_.outside_image; }
+  // Not on the support, nor near it.
+  std::size_t kept() const { return counts_.on_tubes + counts_.unexplained; }
+
+  bool has_points() {
+    if (counts_.all == 0) refuse("empty", "the cloud has no points");
+    if (counts_.all > 0 && valid() == 0)
+      refuse("invalid", fmt::format("none of the cloud's {} points has a position: all are NaN or infinite",
+                                    counts_.all));
+    return valid() > 0;
+  }
+
+  // Points with a position, evenly chosen.
+  std::vector<Vector3d> some_points(std::size_t wanted) const {
+    const std::size_t stride = valid() / wanted + 1;
+    std::vector<Vector3d> points;
+    std::size_t number = 0;
+    for (const Eigen::Vector3f& point : cloud_.points) {
+      if (point.allFinite() && number++ % stride == 0) points.push_back(point.cast<double>());
+    }
+    return points;
+  }
+
+  std::size_t missed() const { return unseen() + counts_.below_support + counts_.cropped; }
+  bool are_most_missed() const { return 2 * missed() > valid(); }
+  bool are_some_unseen() const {
+    constexpr std::size_t share = 50;
+    return share * unseen() > valid();
+  }
+  bool is_most_unexplained() const { return 2 * counts_.unexplained > kept(); }
+
+  void look_for_points_in_scene() {
+    if (!are_most_missed() && !are_some_unseen() && !is_most_unexplained() && !model_.tubes.empty()) return;
+    constexpr std::size_t points_for_remedy = 150;
+    const std::optional<Remedy> remedy = remedy_for(some_points(points_for_remedy), known_);
+    if (remedy) {
+      refuse(remedy->code, fmt::format("{}; they {}", words_of_miss(), remedy->advice));
+      return;
+    }
+    constexpr std::size_t least = 20;  // one in so many points must be in the scene
+    if (2 * unseen() > valid()) {
+      refuse("camera", words_of_miss() + "; are the camera's intrinsics and its pose those of this cloud?");
+    } else if (least * (valid() - missed()) < valid()) {
+      refuse("support", words_of_miss() +
+                            "; is the support's pose right, and are the points in the frame and the "
+                            "unit that the scene says?");
+    }
+  }
+
+  std::size_t largest_miss() const {
+    return std::max({counts_.behind_camera, counts_.outside_image, counts_.below_support, counts_.cropped});
+  }
+
+  std::string words_of_miss() const {
+    if (!are_most_missed()) return "the points do not fit the scene as they are";
+    const std::size_t most = largest_miss();
+    return fmt::format(
+        "{} of the points {}", percent(most, valid()),
+        most == counts_.behind_camera   ? "are behind the camera"
+        : most == counts_.outside_image ? "are outside of the camera's image"
+        : most == counts_.below_support
+            ? fmt::format("are under the {}, {} deep in the median", floor(), metres(median_depth()))
+        : known_.support.shape == Support::Shape::nothing
+            ? "are more than 20 m from the camera"
+            : fmt::format("are far from the {}", name_of(known_.support.shape)));
+  }
+
+  std::string floor() const {
+    return known_.support.shape == Support::Shape::plane ? "plane" : "bin's floor";
+  }
+
+  // m, under the floor, of the points there.
+  double median_depth() const {
+    const Eigen::Isometry3d to_support = known_.support.pose.inverse(Eigen::Isometry);
+    std::vector<double> depths;
+    constexpr std::size_t wanted = 1000;
+    for (const Vector3d& point : some_points(wanted)) {
+      const double depth = -(to_support * point).z();
+      if (depth > 0) depths.push_back(depth);
+    }
+    return depths.empty() ? 0 : median(std::move(depths));
+  }
+
+  void look_for_tubes() {
+    if (!model_.tubes.empty()) return;
+    constexpr double nearly_none = 0.01;
+    if (share_of(kept(), valid()) < nearly_none) {
+      refuse("no-tubes",
+             fmt::format("nothing is left to look for tubes in: {} of the points are on the {}: it looks "
+                         "empty",
+                         percent(counts_.on_support + counts_.near_support, valid()),
+                         name_of(known_.support.shape)));
+      return;
+    }
+    const std::optional<double> radius = other_radius();
+    refuse(radius ? "radius" : "no-tubes",
+           fmt::format("none of the {} points looked at is on a tube of radius {}{}", kept(), radii(),
+                       radius ? fmt::format("; they look like tubes of radius {}: --radius {:.4f}",
+                                            millimetres(*radius), *radius)
+                              : ""));
+  }
+
+  // "12.5 mm", "8 or 12.5 mm"
+  std::string radii() const {
+    std::string text;
+    for (const TubeKind& kind : known_.kinds)
+      text += fmt::format("{}{:.3g}", text.empty() ? "" : " or ", 1000 * kind.radius);
+    return text + " mm";
+  }
+
+  // The radius that the cloud suggests, if it is clearly not a known one.
+  std::optional<double> other_radius() const {
+    try {
+      const Seen seen = in_support_frame(cloud_, known_);
+      const double radius = estimate_radius(seen.cloud, seen.known).radius;
+      constexpr double same = 0.15;
+      const bool is_known = std::ranges::any_of(
+          known_.kinds, [&](const TubeKind& kind) { return std::abs(radius / kind.radius - 1) < same; });
+      return is_known ? std::nullopt : std::optional(radius);
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+  }
+
+  // The median over the tubes that have enough points.
+  template <typename Value>
+  std::optional<double> median_of_tubes(Value value) const {
+    constexpr std::size_t points_min = 100;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < model_.tubes.size(); ++i) {
+      if (model_.evidence[i].points >= points_min)
+        values.push_back(value(model_.tubes[i], model_.evidence[i]));
+    }
+    if (values.empty()) return std::nullopt;
+    return median(std::move(values));
+  }
+
+  void doubt_radius() {
+    const std::optional<double> error = median_of_tubes(
+        [](const Tube& tube, const TubeEvidence& evidence) { return evidence.radius_error / tube.radius; });
+    constexpr double tolerance = 0.06;
+    const std::optional<double> other = is_most_unexplained() ? other_radius() : std::nullopt;
+    if (other) {
+      warn("radius", fmt::format("most points are on no tube of radius {}; they look like tubes of radius {}",
+                                 radii(), millimetres(*other)));
+    } else if (error && std::abs(*error) > tolerance) {
+      warn("radius",
+           fmt::format("the tubes look {:.0f} % {} than their radius of {}: is it right? --radius auto "
+                       "estimates it",
+                       100 * std::abs(*error), *error > 0 ? "thicker" : "thinner", radii()));
+    }
+  }
+
+  void doubt_lengths() {
+    std::size_t complete = 0;
+    std::size_t too_short = 0;
+    std::size_t too_long = 0;
+    double longest = 0;
+    for (const TubeEvidence& evidence : model_.evidence) {
+      complete += evidence.length_fit == LengthFit::complete ? 1 : 0;
+      too_short += evidence.length_fit == LengthFit::too_short ? 1 : 0;
+      too_long += evidence.length_fit == LengthFit::too_long ? 1 : 0;
+      longest = std::max(longest, evidence.length);
+    }
+    constexpr std::size_t share = 5;
+    if (share * too_long > model_.tubes.size())
+      warn("length", fmt::format("{} of {} tubes are longer than known, the longest {}: is the length right?",
+                                 too_long, model_.tubes.size(), metres(longest)));
+    constexpr std::size_t tubes_min = 3;
+    if (too_short >= tubes_min && too_short > 2 * complete)
+      warn("length",
+           fmt::format("{} of {} tubes are shorter than known, the longest {}: is the length right?",
+                       too_short, model_.tubes.size(), metres(longest)));
+  }
+
+  void doubt_sensor() {
+    const std::optional<double> across = median_of_tubes([](const Tube& tube, const TubeEvidence& evidence) {
+      return std::sqrt(2 * tube.radius * static_cast<double>(evidence.points) /
+                       std::max(evidence.visible_length, tube.radius));
+    });
+    constexpr double points_across_min = 5;
+    if (across && *across * std::sqrt(ratio_) < points_across_min)
+      warn("coarse",
+           fmt::format(
+               "only {:.1f} points lie across a tube, and fewer than {} are too few to tell tubes apart "
+               "safely: scan from nearer, with more pixels, or downsample less",
+               *across * std::sqrt(ratio_), points_across_min));
+    const std::optional<double> noise = median_of_tubes(
+        [](const Tube& tube, const TubeEvidence& evidence) { return evidence.residual / tube.radius; });
+    constexpr double noise_max = 0.1;
+    if (noise && *noise > noise_max)
+      warn("noise", fmt::format("the points scatter about the tubes by {:.0f} % of the radius, and more than "
+                                "{:.0f} % is too much to "
+                                "tell tubes apart safely: is the sensor that noisy, or the radius wrong?",
+                                100 * *noise, 100 * noise_max));
+  }
+
+  void doubt_unexplained() {
+    constexpr std::size_t share = 5;
+    if (model_.tubes.empty() || share * counts_.unexplained <= kept()) return;
+    warn("unexplained",
+         fmt::format("{} of the points looked at are on no tube", percent(counts_.unexplained, kept())));
+  }
+
+  void doubt_view() {
+    if (!are_some_unseen() || 2 * unseen() > valid()) return;
+    warn("camera",
+         fmt::format("{} of the points are {}, where it cannot have seen them: they are null",
+                     percent(unseen(), valid()),
+                     counts_.behind_camera > counts_.outside_image ? "behind the camera"
+                                                                   : "outside of the camera's image"));
+  }
+
+  const PointCloud& cloud_;
+  const KnownScene& known_;
+  const Model& model_;
+  const PointCounts& counts_;
+  double ratio_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> diagnose(const PointCloud& cloud, const KnownScene& known, const Model& model,
+                              double ratio) {
+  return Diagnosis(cloud, known, model, ratio).findings();
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,179 @@
+#include "tanglebin/model/evidence.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "tanglebin/model/confidence.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Where a point is on a tube.
+struct Foot {
+  std::size_t edge;
+  double t;      ///< from 0 to 1 along the edge
+  Vector3d way;  ///< m, from the centre line to the point
+};
+
+/// A tube's centre line, in parts about as long as its radius.
+class CentreLine {
+public:
+  explicit CentreLine(const Tube& tube)
+      : tube_(tube), parts_(tube.edges.size()), degrees_(tube.nodes.size()) {
+    for (std::size_t edge = 0; edge < tube.edges.size(); ++edge) {
+      const double parts = std::max(1.0, std::round(length_of(edge) / tube.radius));
+      parts_[edge].resize(static_cast<std::size_t>(parts));
+      ++degrees_[tube.edges[edge].from];
+      ++degrees_[tube.edges[edge].to];
+    }
+  }
+
+  double length_of(std::size_t edge) const { return way_of(edge).norm(); }
+
+  Foot foot_of(const Vector3d& point) const {
+    Foot foot{};
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t edge = 0; edge < tube_.edges.size(); ++edge) {
+      const Vector3d& from = tube_.nodes[tube_.edges[edge].from].position;
+      const Vector3d& to = tube_.nodes[tube_.edges[edge].to].position;
+      const double t = nearest_on_axis({from, to, 0}, point);
+      const Vector3d way = point - (from + t * (to - from));
+      if (way.squaredNorm() >= nearest) continue;
+      nearest = way.squaredNorm();
+      foot = {edge, t, way};
+    }
+    return foot;
+  }
+
+  // Whether a point is beyond an end of the tube: on its cap.
+  bool is_beyond_end(const Foot& foot) const {
+    const auto& [from, to, order] = tube_.edges[foot.edge];
+    return (foot.t <= 0 && degrees_[from] == 1) || (foot.t >= 1 && degrees_[to] == 1);
+  }
+
+  Vector3d direction_at(const Foot& foot) const { return way_of(foot.edge).normalized(); }
+
+  void see(const Foot& foot) {
+    auto& parts = parts_[foot.edge];
+    const auto part = static_cast<std::size_t>(foot.t * static_cast<double>(parts.size()));
+    parts[std::min(part, parts.size() - 1)] = 1;
+  }
+
+  // m, of the parts that were seen.
+  double seen_length() const {
+    double length = 0;
+    for (std::size_t edge = 0; edge < parts_.size(); ++edge) {
+      const auto seen = std::ranges::count(parts_[edge], 1);
+      length += length_of(edge) * static_cast<double>(seen) / static_cast<double>(parts_[edge].size());
+    }
+    return length;
+  }
+
+private:
+  Vector3d way_of(std::size_t edge) const {
+    return tube_.nodes[tube_.edges[edge].to].position - tube_.nodes[tube_.edges[edge].from].position;
+  }
+
+  const Tube& tube_;
+  std::vector<std::vector<std::uint8_t>> parts_;  // of each edge: 1 if it was seen
+  std::vector<int> degrees_;                      // of each node: how many edges it has
+};
+
+/// Finds the radius that fits points around a tube. Seen from one side, a tube that is too thin in the model
+/// is moved by the fit until it lies right in the mean; what is left of the error then grows with the angle
+/// from the line of sight. So a change of the radius and a move, towards the sensor and sideways, are fitted
+/// together, in one step of least squares.
+class RadiusFit {
+public:
+  void add(const Vector3d& outwards, const Vector3d& along, const Vector3d& to_sensor, double residual) {
+    const Vector3d upwards = (to_sensor - to_sensor.dot(along) * along).normalized();
+    const Vector3d row(1, outwards.dot(upwards), outwards.dot(along.cross(upwards)));
+    products_ += row * row.transpose();
+    right_side_ += row * residual;
+    ++points_;
+  }
+
+  // m; 0 if there are too few points, or all of them on one side.
+  double error() const {
+    constexpr int points_min = 30;
+    if (points_ < points_min) return 0;
+    const double independent = 1 / products_.inverse()(0, 0) / points_;  // of the mean square of the row's 1
+    constexpr double independent_min = 1e-4;
+    return independent > independent_min ? products_.ldlt().solve(right_side_)(0) : 0;
+  }
+
+private:
+  Matrix3d products_ = Matrix3d::Zero();
+  Vector3d right_side_ = Vector3d::Zero();
+  int points_ = 0;
+};
+
+LengthFit length_fit(double length, const TubeKind& kind) {
+  constexpr double tolerance = 0.05;
+  if (length > kind.length() * (1 + tolerance)) return LengthFit::too_long;
+  if (kind.length_min == 0) return LengthFit::unknown;
+  return length < kind.length_min * (1 - tolerance) ? LengthFit::too_short : LengthFit::complete;
+}
+
+void weigh(TubeEvidence& evidence, const Tube& tube, const std::vector<Vector3d>& points,
+           const KnownScene& known) {
+  CentreLine line(tube);
+  RadiusFit radius;
+  const Vector3d camera = known.camera.pose.translation();
+  double squares = 0;
+  std::size_t beside = 0;
+  for (const Vector3d& point : points) {
+    const Foot foot = line.foot_of(point);
+    line.see(foot);
+    const double distance = foot.way.norm();
+    if (line.is_beyond_end(foot) || distance == 0) continue;
+    const double residual = distance - tube.radius;
+    const Vector3d outwards = foot.way / distance;
+    const Vector3d to_sensor = (camera - point).normalized();
+    squares += residual * residual;
+    ++beside;
+    radius.add(outwards, line.direction_at(foot), to_sensor, residual);
+  }
+  if (beside > 0) evidence.residual = std::sqrt(squares / static_cast<double>(beside));
+  evidence.radius_error = radius.error();
+  evidence.length = total_length(tube);
+  evidence.visible_length = line.seen_length();
+  const TubeKind& kind = known.kinds.at(evidence.kind);
+  evidence.length_fit = length_fit(evidence.length, kind);
+  evidence.confidence = confidence(features_of(evidence, kind));
+}
+
+// Of each tube, evenly chosen points with its label. Counts all of them.
+std::vector<std::vector<Vector3d>> some_points(Model& model, const PointCloud& cloud) {
+  constexpr std::size_t wanted = 300;
+  std::vector<std::size_t> left(model.tubes.size() + 1);
+  for (const std::int32_t label : model.labels) {
+    if (label > 0) ++left[static_cast<std::size_t>(label)];
+  }
+  std::vector<std::size_t> strides;
+  for (const std::size_t points : left) strides.push_back(points / wanted + 1);
+  for (std::size_t tube = 0; tube < model.tubes.size(); ++tube) model.evidence[tube].points = left[tube + 1];
+  std::vector<std::vector<Vector3d>> points(model.tubes.size());
+  for (std::size_t i = 0; i < model.labels.size(); ++i) {
+    if (model.labels[i] <= 0) continue;
+    const auto label = static_cast<std::size_t>(model.labels[i]);
+    if (--left[label] % strides[label] == 0) points[label - 1].push_back(cloud.points[i].cast<double>());
+  }
+  return points;
+}
+
+}  // namespace
+
+void weigh(Model& model, const PointCloud& cloud, const KnownScene& known) {
+  const std::vector<std::vector<Vector3d>> points = some_points(model, cloud);
+  for (std::size_t tube = 0; tube < model.tubes.size(); ++tube)
+    weigh(model.evidence[tube], model.tubes[tube], points[tube], known);
+}
+
+}  // namespace tanglebin
