@@ -92,7 +92,7 @@ Recipe recipe_of(const Cell& cell) {
 /// The tubes at rest, one heap for each scene.
 struct Heaps {
   std::string cell;
-  std::vector<Scene> scenes;
+  std::vector<SimulatedScene> scenes;
 };
 
 int number_of_scenes() {
@@ -101,7 +101,7 @@ int number_of_scenes() {
 }
 
 // Those of the last cell are kept: benchmarks of a cell follow one another.
-const std::vector<Scene>& heaps_of(const Cell& cell) {
+const std::vector<SimulatedScene>& heaps_of(const Cell& cell) {
   static Heaps heaps;
   if (heaps.cell == cell.name) return heaps.scenes;
   heaps = {cell.name, {}};
@@ -128,7 +128,7 @@ KnownScene known_of(const Cell& cell, Told told) {
   return known;
 }
 
-PointCloud cloud_of(const Cell& cell, const Scene& scene, const Sensor& sensor) {
+PointCloud cloud_of(const Cell& cell, const SimulatedScene& scene, const Sensor& sensor) {
   const Bin plane{.length = 8, .width = 8, .height = 1e-6};
   PointCloud cloud = cloud_from_scan(
       scan(scene.tubes, cell.is_plane ? plane : cell.bin, camera_of(cell), sensor, scene.seed),
@@ -156,10 +156,10 @@ void model_cell(benchmark::State& state, const Cell& cell, const Sensor& sensor,
   double tubes = 0;
   double not_tubes = 0;
   double failed = 0;
-  const std::vector<Scene>& scenes = heaps_of(cell);
+  const std::vector<SimulatedScene>& scenes = heaps_of(cell);
   for ([[maybe_unused]] const auto iteration : state) {
     double seconds = 0;
-    for (const Scene& scene : scenes) {
+    for (const SimulatedScene& scene : scenes) {
       const PointCloud cloud = cloud_of(cell, scene, sensor);
       KnownScene known = known_of(cell, told);
       const auto start = std::chrono::steady_clock::now();

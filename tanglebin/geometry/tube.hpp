@@ -22,8 +22,8 @@ struct Edge {
 };
 
 /// A tube is a tree of nodes (spheres) and edges (cylinders) of one radius, so its surface is that of a union
-/// of capsules (paper, Section 3, with a sphere at every node as in the published data). Modelled tubes may have
-/// flat ends; all that simulates or scans tubes takes their ends as round.
+/// of capsules (paper, Section 3, with a sphere at every node as in the published data). Modelled tubes may
+/// have flat ends; all that simulates or scans tubes takes their ends as round.
 struct Tube {
   int id = 1;           ///< 1, 2, …; also the label of its points
   double radius = 0.0;  ///< m

@@ -68,8 +68,7 @@ TEST(LabelByNearest, DoesNotReachBeyondAFlatEnd) {
                                      {-0.2F, 0, 0.025F},
                                      {0, 0, 0.0125F}});
   const std::vector<std::size_t> all = {0, 1, 2, 3, 4, 5};
-  EXPECT_THAT(label_by_nearest(cloud, all, {tube}, {}),
-              ElementsAre(null_label, 1, 1, 1, 1, null_label));
+  EXPECT_THAT(label_by_nearest(cloud, all, {tube}, {}), ElementsAre(null_label, 1, 1, 1, 1, null_label));
   tube.flat_ends = true;
   EXPECT_THAT(label_by_nearest(cloud, all, {tube}, {}),
               ElementsAre(1, 1, null_label, null_label, 1, null_label));
