@@ -21,6 +21,7 @@ void for_each_parameter(Settings& settings, Visit visit) {
   visit("axis.ramp.slope_min", settings.axis.ramp.slope_min);
   visit("axis.ramp.drop_min", settings.axis.ramp.drop_min);
   visit("axis.ramp.edge_min", settings.axis.ramp.edge_min);
+  visit("axis.ramp.pixels_min", settings.axis.ramp.pixels_min);
   visit("axis.ramp.steps_max", settings.axis.ramp.steps_max);
   visit("axis.ramp.beside", settings.axis.ramp.beside);
   visit("axis.ramp.blended_min", settings.axis.ramp.blended_min);

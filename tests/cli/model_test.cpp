@@ -311,7 +311,7 @@ TEST_F(ModelCommand, TakesTheSceneOfADatasetsCase) {
     const std::string out = path("labelled.ply");
     const ProgramResult run = run_program("model " + file + " --out " + out + " --scene " + scene);
     EXPECT_EQ(run.status, 0) << run.err;
-    EXPECT_EQ(run.err, "");
+    EXPECT_THAT(run.err, HasSubstr("points lie across a tube"));  // the camera is coarse
     return read_cloud(std::filesystem::path(out)).labels;
   };
   const auto labels = labels_by(cloud, path("dataset"));

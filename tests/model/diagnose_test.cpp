@@ -37,7 +37,7 @@ struct View {
 std::vector<Tube> heap() {
   const double r = test::radius;
   return {test::chain(1, r, {{-0.2, -0.05, r}, {-0.05, 0, r}, {0.1, 0, r}, {0.25, 0.06, r}}),
-          test::chain(2, r, {{0.02, -0.15, r}, {0.02, 0, 0.06}, {0.03, 0.16, r}}),
+          test::chain(2, r, {{0.02, -0.1, r}, {0.02, 0, 0.06}, {0.03, 0.16, r}}),
           test::chain(3, r, {{-0.25, 0.12, r}, {-0.12, 0.15, r}, {-0.05, 0.1, r}, {0.15, 0.12, r}}),
           test::chain(4, r, {{-0.2, -0.15, r}, {0.2, -0.12, r}})};
 }
@@ -135,10 +135,10 @@ std::vector<Verdict> verdicts() {
        "bin", warning, "bin"},
       {"the bin 10 mm too low", [](View& view) { view.scene.support.pose.translation().z() = -0.01; },
        "floor", warning, "the floor is 10.0 mm above"},
-      {"twice the radius: the diameter", [](View& view) { view.scene.kinds[0].radius *= 2; }, "radius",
-       warning, "they look like tubes of radius 12"},
-      {"half the radius", [](View& view) { view.scene.kinds[0].radius /= 2; }, "radius", warning,
-       "they look like tubes of radius 12"},
+      {"twice the radius: the diameter", [](View& view) { view.scene.kinds[0].radius *= 2; }, "radius", error,
+       "they look like tubes of radius 12.5 mm: --radius 0.0125"},
+      {"half the radius", [](View& view) { view.scene.kinds[0].radius /= 2; }, "radius", error,
+       "they look like tubes of radius 12.5 mm: --radius 0.0125"},
       {"half the length",
        [](View& view) {
          view.scene.kinds[0].segments = {{1, 2, 0.25}};

@@ -65,8 +65,9 @@ std::vector<TubeEvidence> evidence_of(const AxisSteps& steps, std::size_t kind, 
   return evidence;
 }
 
-double smallest_radius(const std::vector<TubeKind>& kinds) {
-  return std::ranges::min_element(kinds, {}, &TubeKind::radius)->radius;
+Ramps ramps_in(const PointCloud& cloud, const KnownScene& known, const RampSettings& settings) {
+  const auto [thinnest, thickest] = std::ranges::minmax(known.kinds, {}, &TubeKind::radius);
+  return find_ramps(cloud.points, known.camera, thinnest.radius, thickest.radius, settings);
 }
 
 // The points, without those on ramps: NaN.
@@ -115,7 +116,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   const Cropped cropped = crop(cloud, known.support, given.filter);
   model.filtered = downsample(cropped.kept, ratio, seed);
   const std::vector<Vector3f> points = picked(cloud.points, model.filtered);
-  const Ramps ramps = find_ramps(cloud.points, known.camera, smallest_radius(known.kinds), given.ramp);
+  const Ramps ramps = ramps_in(cloud, known, given.ramp);
   const bool has_ramps = ramps.blended >= given.ramp.blended_min;
   const AxisSettings settings = has_ramps ? given : for_sharp_edges(given);
   const std::vector<Vector3f> voters = has_ramps ? without(ramps, points, model.filtered) : points;

@@ -11,6 +11,7 @@ struct RampSettings {
   double slope_min = 1.7;    ///< m of depth per m across the view, from each point of a ramp to the next
   double drop_min = 0.75;    ///< radii, of depth from end to end; a tube's flank has less
   double edge_min = 1.6;     ///< radii, the same for the edges that show what the scanner does
+  double pixels_min = 5;     ///< pixels that a tube's radius must have
   int steps_max = 6;         ///< longer runs are steep surfaces
   double beside = 0.5;       ///< points beside a ramp that do not vote either, as a share of its length
   double blended_min = 0.1;  ///< share of blended edges from which on the scanner is one that makes ramps

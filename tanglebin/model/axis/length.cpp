@@ -106,12 +106,6 @@ WholeChains whole_chains(TubeKind kind, const std::vector<Fragment>& fragments, 
   return {std::move(lengths), of_linked};
 }
 
-// A range that is wider than what a length is allowed to be wrong by says as little as none.
-bool has_length(const TubeKind& kind, const LinkSettings& settings) {
-  return kind.length_is_known() &&
-         (kind.length_min == 0 || kind.length_min * (1 + settings.length_tolerance) >= kind.length());
-}
-
 // A known length, unless it is too short for what is seen.
 double checked_length(const TubeKind& kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                       double longest, const LinkSettings& settings) {
@@ -126,11 +120,9 @@ double checked_length(const TubeKind& kind, const std::vector<Fragment>& fragmen
 double found_length(const TubeKind& kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                     double longest, const LinkSettings& settings) {
   const auto [lengths, agreement] = whole_chains(kind, fragments, seen, longest, settings);
-  if (lengths.empty()) return std::min(kind.length(), hidden * longest);
+  if (lengths.empty()) return hidden * longest;
   const bool most_agree = 2 * agreement.chains > lengths.size();
-  const double largest = kind.length_is_known() ? kind.length() : lengths.back();
-  return std::clamp(most_agree ? agreement.length : largest, std::max(longest, kind.length_min),
-                    std::max(longest, kind.length()));
+  return std::max(most_agree ? agreement.length : lengths.back(), longest);
 }
 
 }  // namespace
@@ -139,7 +131,7 @@ TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, cons
                      const LinkSettings& settings) {
   if (kind.branches() || fragments.empty()) return kind;
   const double longest = std::ranges::max_element(fragments, {}, &Fragment::length)->length;
-  const auto length = has_length(kind, settings) ? checked_length : found_length;
+  const auto length = kind.length_is_known() ? checked_length : found_length;
   kind.segments[0].length = length(kind, fragments, seen, longest, settings);
   return kind;
 }

@@ -9,10 +9,10 @@
 
 namespace tanglebin {
 
-/// A kind of chains, with a length, m, in place of an unknown one or of a range: the length that most of the
-/// chains have of which the sensor saw both ends. If most have none in common, the largest of the range, or
-/// of theirs. If no chain is seen from end to end, half as much again as the longest fragment. A length that
-/// was given stays, unless three such chains agree that it is too short. Trees stay as they are.
+/// A kind of chains, with a length, m, in place of an unknown one: the length that most of the chains have of
+/// which the sensor saw both ends. If most have none in common, the largest of theirs. If no chain is seen
+/// from end to end, half as much again as the longest fragment. A length that was given, or the largest of a
+/// range, stays, unless three such chains agree that it is too short. Trees stay as they are.
 TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                      const LinkSettings& settings);
 

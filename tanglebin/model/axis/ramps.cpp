@@ -5,9 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
+
+#include "tanglebin/base/median.hpp"
 
 namespace tanglebin {
 namespace {
@@ -47,6 +50,14 @@ DepthGrid depth_grid(const std::vector<Eigen::Vector3f>& points, const Camera& c
     grid.points[pixel] = static_cast<std::uint32_t>(i);
   }
   return grid;
+}
+
+// m; 0 if there is no point.
+double median_depth(const DepthGrid& grid) {
+  std::vector<float> depths;
+  std::ranges::copy_if(grid.depths, std::back_inserter(depths),
+                       [](float depth) { return std::isfinite(depth); });
+  return depths.empty() ? 0 : median(std::move(depths));
 }
 
 /// A line of pixels: a row or a column.
@@ -170,10 +181,13 @@ private:
 
 }  // namespace
 
-Ramps find_ramps(const std::vector<Eigen::Vector3f>& points, const Camera& camera, double radius,
-                 const RampSettings& settings) {
+Ramps find_ramps(const std::vector<Eigen::Vector3f>& points, const Camera& camera, double thinnest,
+                 double thickest, const RampSettings& settings) {
   const DepthGrid grid = depth_grid(points, camera);
-  RampFinder finder(grid, 1 / std::max(camera.fx, camera.fy), radius, settings);
+  const double pixel_angle = 1 / std::max(camera.fx, camera.fy);
+  if (thinnest < settings.pixels_min * pixel_angle * median_depth(grid))
+    return {std::vector<bool>(points.size()), 0};
+  RampFinder finder(grid, pixel_angle, thickest, settings);
   for (std::size_t row = 0; row < grid.height; ++row) finder.look_along({row * grid.width, 1, grid.width});
   for (std::size_t column = 0; column < grid.width; ++column)
     finder.look_along({column, grid.width, grid.height});

@@ -17,9 +17,10 @@ struct Ramps {
 
 /// Finds ramps. A scanner that averages over an edge leaves a few points between the near surface and the far
 /// one, in a row or a column of the image: a run of steep steps in one direction, over more depth than the
-/// flank of a tube of this radius (m) has. Points are in m, in the frame of the camera's pose. Where
-/// neighbouring pixels have no points, there are no ramps.
-Ramps find_ramps(const std::vector<Eigen::Vector3f>& points, const Camera& camera, double radius,
-                 const RampSettings& settings);
+/// flank of the thickest tube has. Points and radii are in m, the points in the frame of the camera's pose.
+/// Where neighbouring pixels have no points, there are no ramps, and none where the thinnest tube has so few
+/// pixels that its flank looks like one.
+Ramps find_ramps(const std::vector<Eigen::Vector3f>& points, const Camera& camera, double thinnest,
+                 double thickest, const RampSettings& settings);
 
 }  // namespace tanglebin

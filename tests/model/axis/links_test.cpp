@@ -36,9 +36,9 @@ TEST(Links, JoinEndsThatFaceEachOtherAndSayHowFarApartTheyAre) {
   EXPECT_EQ(link.to.fragment, 1U);
   EXPECT_EQ(link.to.end, 0U);
   EXPECT_NEAR(link.gap, 0.05, 1e-12);
-  // 1, ln(gap + 2 mm), gap, no angles, nothing that was seen, and nothing in the way.
-  EXPECT_THAT(link.features, ElementsAre(1, testing::DoubleNear(std::log(0.052), 1e-12),
-                                         testing::DoubleNear(0.05, 1e-12), testing::DoubleNear(0, 1e-6),
+  // 1, ln(gap + 0.16), gap in radii, no angles, nothing that was seen, and nothing in the way.
+  EXPECT_THAT(link.features, ElementsAre(1, testing::DoubleNear(std::log(4.16), 1e-12),
+                                         testing::DoubleNear(4, 1e-12), testing::DoubleNear(0, 1e-6),
                                          testing::DoubleNear(0, 1e-6), testing::DoubleNear(0, 1e-6), 0, 0));
 }
 

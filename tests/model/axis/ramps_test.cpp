@@ -42,7 +42,7 @@ std::vector<Vector3f> image(const std::function<double(int)>& depth_at) {
 }
 
 Ramps ramps_of(const std::function<double(int)>& depth_at, const RampSettings& settings = {}) {
-  return find_ramps(image(depth_at), camera(), radius, settings);
+  return find_ramps(image(depth_at), camera(), radius, radius, settings);
 }
 
 // The columns with points on ramps, in the image's first row. All rows are alike.
@@ -107,10 +107,10 @@ TEST(Ramps, AreNotInACloudOfFewPixels) {
     const bool is_kept = i % size % 2 == 0 && i / size % 2 == 0;
     if (!is_kept) points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
   }
-  const Ramps ramps = find_ramps(points, camera(), radius, {});
+  const Ramps ramps = find_ramps(points, camera(), radius, radius, {});
   EXPECT_EQ(ramps.blended, 0);
   EXPECT_EQ(std::ranges::count(ramps.points, true), 0);
-  EXPECT_TRUE(find_ramps({}, camera(), radius, {}).points.empty());
+  EXPECT_TRUE(find_ramps({}, camera(), radius, radius, {}).points.empty());
 }
 
 TEST(Ramps, AreWhatAScannerThatMixesMakes) {
@@ -122,7 +122,7 @@ TEST(Ramps, AreWhatAScannerThatMixesMakes) {
   const auto ramps_by = [&](const Sensor& sensor) {
     const PointCloud cloud =
         cloud_from_scan(scan(tubes, scene.support.bin, scene.camera, sensor, 1), CloudOf::tubes_and_bin, 2);
-    return find_ramps(cloud.points, scene.camera, radius, {});
+    return find_ramps(cloud.points, scene.camera, radius, radius, {});
   };
   EXPECT_LT(ramps_by({}).blended, 0.05);
   EXPECT_GT(ramps_by(mixing).blended, 0.2);
