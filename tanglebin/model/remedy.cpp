@@ -133,8 +133,9 @@ std::vector<Matrix3d> exchanged_axes() {
       all.push_back(axes);
     }
   } while (std::ranges::next_permutation(order).found);
-  std::ranges::stable_partition(all, [](const Matrix3d& axes) { return axes(0, 0) > 0; });
-  std::ranges::stable_partition(all, [](const Matrix3d& axes) { return axes.determinant() > 0; });
+  // Not std::ranges, whose subranges clang 14 does not compile.
+  std::stable_partition(all.begin(), all.end(), [](const Matrix3d& axes) { return axes(0, 0) > 0; });
+  std::stable_partition(all.begin(), all.end(), [](const Matrix3d& axes) { return axes.determinant() > 0; });
   return all;
 }
 

@@ -86,15 +86,16 @@ AxisSettings for_sharp_edges(AxisSettings settings) {
   return settings;
 }
 
-// Not the rim of a bin, nor a pipe of quite another radius. What shows too little to tell is taken for a tube
-// where the support is known: there may be walls in the cloud where it is not. And not a ball: an upright
-// tube shows one if its ends are round.
+// In a known bin there are tubes. Elsewhere there may also be the rim of a bin, or a pipe of quite another
+// radius; and without a support walls, so that what shows too little to tell is no tube there. A ball is none
+// either: an upright tube shows one if its ends are round.
 bool is_tube(const Tube& tube, const std::optional<double>& roundness, const Support& support) {
   constexpr double least = 0.6;
   constexpr double most = 1.6;
-  if (!roundness && support.shape == Support::Shape::nothing) return false;
-  if (roundness && (*roundness < least || *roundness > most)) return false;
-  return !tube.flat_ends || total_length(tube) > tube.radius;
+  if (tube.flat_ends && total_length(tube) <= tube.radius) return false;
+  if (support.shape == Support::Shape::bin) return true;
+  if (!roundness) return support.shape == Support::Shape::plane;
+  return *roundness >= least && *roundness <= most;
 }
 
 std::size_t number_of_votes(const AxisSteps& steps) {
