@@ -91,7 +91,7 @@ Scene scene_of_recipe(const fs::path& file) {
   if (!recipe.random.empty())
     throw InputError({file.string(), 0, recipe.random.front().path}, "a number that is drawn for each case",
                      remedy);
-  const Scene scene = scene_of_simulation(known_scene(recipe, {recipe.sets.front().name}));
+  Scene scene = scene_of_simulation(known_scene(recipe, {recipe.sets.front().name}));
   for (const SetRecipe& set : recipe.sets) {
     if (scene_of(known_scene(recipe, {set.name})).tubes != scene.tubes)
       throw InputError({file.string(), 0, "set"}, "sets of different tubes", remedy);

@@ -20,6 +20,7 @@ void check_size(const DepthImage& image, const Intrinsics& camera) {
 // The coordinate, at depth 1, of the pixels of a row or a column.
 std::vector<double> slopes(int pixels, double focal_length, double principal_point) {
   std::vector<double> result;
+  result.reserve(static_cast<std::size_t>(pixels));
   for (int i = 0; i < pixels; ++i) result.push_back((i - principal_point) / focal_length);
   return result;
 }
@@ -37,7 +38,8 @@ PointCloud cloud_from_depths(const DepthImage& image, const Intrinsics& intrinsi
   for (std::size_t row = 0; row < cloud.height; ++row) {
     for (std::size_t column = 0; column < cloud.width; ++column) {
       const double depth = image.depths[row * cloud.width + column];
-      cloud.points.push_back(Eigen::Vector3d(across[column] * depth, down[row] * depth, depth).cast<float>());
+      cloud.points.emplace_back(
+          Eigen::Vector3d(across[column] * depth, down[row] * depth, depth).cast<float>());
     }
   }
   return cloud;

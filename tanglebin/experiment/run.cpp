@@ -51,7 +51,7 @@ KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
 }
 
 KnownScene known_scene(const Recipe& recipe, const CaseData& data, const CaseId& id, const Scene& told) {
-  const KnownScene known = known_scene(recipe, id);
+  KnownScene known = known_scene(recipe, id);
   if (is_empty(told)) return known;
   Scene scene = overridden(scene_of(known), told);
   scene.camera.frame = CloudFrame::world;

@@ -4,9 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <numbers>
 #include <ostream>
@@ -52,7 +52,7 @@ void add_part(TubeMesh& mesh, const Capsule& capsule, const std::vector<Ring>& r
   const auto add_vertex = [&](const Ring& ring, std::size_t side) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(side) / sides;
     const Eigen::Vector3d from_a(ring.radius * std::cos(angle), ring.radius * std::sin(angle), ring.along);
-    mesh.vertices.push_back((capsule.a + rotation * from_a).cast<float>());
+    mesh.vertices.emplace_back((capsule.a + rotation * from_a).cast<float>());
   };
   add_vertex(rings.front(), 0);
   for (std::size_t ring = 1; ring + 1 < rings.size(); ++ring) {
@@ -79,9 +79,8 @@ void add_part(TubeMesh& mesh, const Capsule& capsule, const std::vector<Ring>& r
 template <typename Value>
 void put(std::string& bytes, const Value& value) {
   static_assert(std::endian::native == std::endian::little, "the files' byte order");
-  char copy[sizeof(Value)];
-  std::memcpy(copy, &value, sizeof(Value));
-  bytes.append(copy, sizeof(Value));
+  const auto copy = std::bit_cast<std::array<char, sizeof(Value)>>(value);
+  bytes.append(copy.data(), copy.size());
 }
 
 // The number of items in all meshes.

@@ -94,7 +94,7 @@ private:
     std::vector<Vector3d> points;
     std::size_t number = 0;
     for (const Eigen::Vector3f& point : cloud_.points) {
-      if (point.allFinite() && number++ % stride == 0) points.push_back(point.cast<double>());
+      if (point.allFinite() && number++ % stride == 0) points.emplace_back(point.cast<double>());
     }
     return points;
   }

@@ -157,6 +157,7 @@ std::vector<std::vector<Vector3d>> some_points(Model& model, const PointCloud& c
     if (label > 0) ++left[static_cast<std::size_t>(label)];
   }
   std::vector<std::size_t> strides;
+  strides.reserve(left.size());
   for (const std::size_t points : left) strides.push_back(points / wanted + 1);
   for (std::size_t tube = 0; tube < model.tubes.size(); ++tube) model.evidence[tube].points = left[tube + 1];
   std::vector<std::vector<Vector3d>> points(model.tubes.size());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace tanglebin {
@@ -77,7 +78,7 @@ private:
     return {-half - near * Vector3d::UnitZ(), half + (bin.height + above) * Vector3d::UnitZ()};
   }
 
-  bool is_seen(const Camera& camera, const Vector3d& point) const {
+  static bool is_seen(const Camera& camera, const Vector3d& point) {
     constexpr double nearest = 0.05;
     const double depth = depth_of(camera, point);
     return depth > nearest && depth < far && pixel_of(camera, point);
@@ -155,21 +156,24 @@ Remedy remedy_of(const Frame& told, const Frame& right, double unit, const Matri
   return {code, "would fit " + advice};
 }
 
-std::vector<Guess> guesses(const KnownScene& known) {
+// How many mistakes an exchange of axes is: a mirrored frame is the least likely.
+int mistakes_of(const Matrix3d& axes) {
+  if (axes.isIdentity()) return 0;
+  return axes.determinant() > 0 ? 2 : 3;
+}
+
+// The cloud in another frame or unit, or with other axes.
+std::vector<Guess> guesses_of_frame(const KnownScene& known) {
   const Isometry3d& camera = known.camera.pose;
   const std::array frames = {
       Frame{"the camera's frame", "--frame camera", "x right, y down, z along the view", camera},
       Frame{"the world frame", "--frame world", "z up", Isometry3d::Identity()}};
-  const Isometry3d turned(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitX()));
   std::vector<Guess> all;
   for (const Frame& told : frames) {
     for (const Frame& right : frames) {
       for (const double unit : {1.0, 0.001, 1000.0}) {
         for (const Matrix3d& axes : exchanged_axes()) {
-          const int mistakes = (&told != &right ? 1 : 0) + (unit != 1 ? 1 : 0) +
-                               (axes.isIdentity()        ? 0
-                                : axes.determinant() > 0 ? 2
-                                                         : 3);
+          const int mistakes = (&told != &right ? 1 : 0) + (unit != 1 ? 1 : 0) + mistakes_of(axes);
           if (mistakes == 0) continue;
           const Affine3d motion =
               right.pose * Affine3d(Eigen::Scaling(unit) * axes) * told.pose.inverse(Eigen::Isometry);
@@ -178,6 +182,14 @@ std::vector<Guess> guesses(const KnownScene& known) {
       }
     }
   }
+  return all;
+}
+
+// Another pose of the camera or the support.
+std::vector<Guess> guesses_of_pose(const KnownScene& known) {
+  const Isometry3d& camera = known.camera.pose;
+  const Isometry3d turned(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitX()));
+  std::vector<Guess> all;
   const auto other_camera = [&](const Isometry3d& pose, const std::string& advice) {
     all.push_back({Affine3d::Identity(), pose, 1, {"pose", advice}});
     all.push_back({Affine3d(pose * camera.inverse(Eigen::Isometry)), pose, 1, {"pose", advice}});
@@ -201,8 +213,10 @@ std::vector<Guess> guesses(const KnownScene& known) {
 std::optional<Remedy> remedy_for(const std::vector<Vector3d>& points, const KnownScene& known) {
   if (points.empty()) return std::nullopt;
   const Fit fit(known);
-  std::vector<Guess> all = guesses(known);
+  std::vector<Guess> all = guesses_of_frame(known);
+  std::ranges::move(guesses_of_pose(known), std::back_inserter(all));
   std::vector<double> fits;
+  fits.reserve(all.size());
   for (const Guess& guess : all) fits.push_back(fit.of(points, guess.cloud, guess.camera));
   const double best = std::ranges::max(fits);
   constexpr double gain = 0.3;
@@ -221,7 +235,7 @@ std::optional<Remedy> remedy_for(const std::vector<Vector3d>& points, const Know
     simplest = &all[i];
     its_fit = fits[i];
   }
-  return simplest->remedy;
+  return simplest == nullptr ? std::nullopt : std::optional(simplest->remedy);
 }
 
 }  // namespace tanglebin

@@ -37,7 +37,8 @@ std::optional<double> distance_from_pixels(const PointCloud& cloud, const Camera
   for (std::size_t i = 0; i < cloud.points.size(); i += stride_for(cloud, wanted)) {
     if (!cloud.points[i].allFinite()) continue;
     const std::optional<Eigen::Vector2d> image = project(camera, cloud.points[i].cast<double>());
-    const Eigen::Vector2d pixel(static_cast<double>(i % cloud.width), static_cast<double>(i / cloud.width));
+    const std::size_t row = i / cloud.width;
+    const Eigen::Vector2d pixel(static_cast<double>(i % cloud.width), static_cast<double>(row));
     if (image) distances.push_back((*image - pixel).norm());
   }
   if (distances.empty()) return std::nullopt;
@@ -113,7 +114,10 @@ private:
   };
 
   std::size_t area() const { return static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_); }
-  Depths& at(int u, int v) { return pixels_[static_cast<std::size_t>(v * size_ + u)]; }
+  Depths& at(int u, int v) {
+    return pixels_[static_cast<std::size_t>(v) * static_cast<std::size_t>(size_) +
+                   static_cast<std::size_t>(u)];
+  }
 
   bool has_neighbour(int u, int v) {
     for (int i = -1; i <= 1; ++i) {
@@ -241,7 +245,9 @@ private:
   };
 
   Cell& at(const PixelPosition& pixel) {
-    return cells_[static_cast<std::size_t>(pixel.row / size_ * columns_ + pixel.column / size_)];
+    const auto row = static_cast<std::size_t>(pixel.row / size_);
+    const auto column = static_cast<std::size_t>(pixel.column / size_);
+    return cells_[row * static_cast<std::size_t>(columns_) + column];
   }
 
   const Camera& camera_;

@@ -19,7 +19,7 @@ std::vector<Vector3d> some_points(const PointCloud& cloud) {
   std::vector<Vector3d> points;
   std::size_t count = 0;
   for (const Eigen::Vector3f& point : cloud.points) {
-    if (point.allFinite() && count++ % step == 0) points.push_back(point.cast<double>());
+    if (point.allFinite() && count++ % step == 0) points.emplace_back(point.cast<double>());
   }
   return points;
 }
@@ -76,7 +76,8 @@ std::optional<FittedIntrinsics> fit_intrinsics(const PointCloud& cloud, const Ei
     const Vector3d slope = point / point.z();
     if (!(point.z() > 0) || slope.head<2>().cwiseAbs().maxCoeff() > steepest) continue;
     across.add(slope.x(), static_cast<double>(i % cloud.width));
-    down.add(slope.y(), static_cast<double>(i / cloud.width));
+    const std::size_t row = i / cloud.width;
+    down.add(slope.y(), static_cast<double>(row));
   }
   constexpr double points_min = 100;
   constexpr double share_min = 0.9;
@@ -118,6 +119,7 @@ std::optional<double> extent(const PointCloud& cloud) {
   double longest = 0;
   for (const Eigen::Index axis : {0, 1, 2}) {
     std::vector<double> values;
+    values.reserve(points.size());
     for (const Vector3d& point : points) values.push_back(point[axis]);
     std::ranges::nth_element(values, values.begin() + cut);
     const double low = values[static_cast<std::size_t>(cut)];

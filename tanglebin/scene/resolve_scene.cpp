@@ -226,8 +226,8 @@ TubeKind kind_of(const TubeClass& tubes) {
   TubeKind kind{.radius = 0, .segments = tubes.tree, .length_min = 0, .flat_ends = tubes.flat_ends};
   if (tubes.radius && tubes.radius->min == tubes.radius->max) kind.radius = tubes.radius->min;
   if (!tubes.tree.empty()) return kind;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  kind.segments = {{1, 2, tubes.length ? tubes.length->max : infinity}};
+  const double longest = tubes.length ? tubes.length->max : std::numeric_limits<double>::infinity();
+  kind.segments = {{.from = 1, .to = 2, .length = longest}};
   kind.length_min = tubes.length ? tubes.length->min : 0;
   return kind;
 }

@@ -37,6 +37,6 @@ struct AxisModel {
 /// maximum-likelihood matching and fitted to the points by least squares. For chains and trees. Arguments as
 /// for model_tubes(), but all in the support's frame (in_support_frame()).
 AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double ratio, std::uint64_t seed,
-                        const AxisSettings& settings = {});
+                        const AxisSettings& given = {});
 
 }  // namespace tanglebin

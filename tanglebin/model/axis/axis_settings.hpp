@@ -84,7 +84,7 @@ struct AxisSettings {
   FragmentSettings fragment;
   LinkSettings link;
   TubeFitSettings fit;
-  LabelSettings label;
+  LabelSettings label{.distance_max = 1};
 };
 
 }  // namespace tanglebin

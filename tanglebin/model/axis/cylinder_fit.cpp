@@ -174,7 +174,7 @@ FiveByFive improve(Cylinder& cylinder, const Inliers& inliers, const Vector3d& v
     products += row * row.transpose();
     right_side += residual * row;
   }
-  const FiveByFive inverse = products.ldlt().solve(FiveByFive::Identity());
+  FiveByFive inverse = products.ldlt().solve(FiveByFive::Identity());
   const Five step = inverse * right_side;
   cylinder.place += step[0] * side + step[1] * other_side;
   cylinder.axis = (cylinder.axis + (step[2] * side + step[3] * other_side) / cylinder.radius).normalized();

@@ -78,10 +78,13 @@ std::vector<Sighting> search(const PixelGrid& grid, const RadiusRange& range) {
   constexpr double step = 1.25;
   constexpr std::size_t enough = 500;
   const double deviation_max = std::log(step);
+  std::vector<double> reaches;
+  while (reaches.empty() || reaches.back() * step < range.max * std::sqrt(step))
+    reaches.push_back(reaches.empty() ? range.min * std::sqrt(step) : reaches.back() * step);
   const Everywhere places(grid.size());
   std::vector<Sighting> sightings;
   for (std::size_t i = 0; i < std::min(looked_at, places.size()) && sightings.size() < enough; ++i) {
-    for (double reach = range.min * std::sqrt(step); reach < range.max * std::sqrt(step); reach *= step) {
+    for (const double reach : reaches) {
       const auto found = sighting(grid, places[i], reach, deviation_max);
       if (found) sightings.push_back(*found);
     }
@@ -94,6 +97,7 @@ class Histogram {
 public:
   explicit Histogram(const std::vector<Sighting>& sightings) {
     std::vector<double> logs;
+    logs.reserve(sightings.size());
     for (const Sighting& seen : sightings) logs.push_back(std::log(seen.radius));
     const auto [least, most] = std::ranges::minmax(logs);
     constexpr std::size_t reach = 2;
@@ -136,7 +140,9 @@ public:
   }
 
 private:
-  std::size_t bin_of(double value) const { return static_cast<std::size_t>((value - start_) / width + 0.5); }
+  std::size_t bin_of(double value) const {
+    return static_cast<std::size_t>(std::lround((value - start_) / width));
+  }
 
   static constexpr double width = 0.04;
   double start_;
@@ -181,6 +187,7 @@ std::vector<Sighting> look_closely(const PixelGrid& grid, double radius) {
 
 std::vector<double> radii_of(const std::vector<Sighting>& sightings) {
   std::vector<double> radii;
+  radii.reserve(sightings.size());
   for (const Sighting& seen : sightings) radii.push_back(seen.radius);
   return radii;
 }

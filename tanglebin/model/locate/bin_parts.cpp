@@ -31,7 +31,8 @@ std::size_t part_at(const Bin& bin, std::size_t box, const Vector3d& point, cons
 
 Ray ray_of(const View& view, std::size_t pixel) {
   const auto width = static_cast<std::size_t>(view.camera.width);
-  return ray_through(view.camera, static_cast<double>(pixel % width), static_cast<double>(pixel / width));
+  const std::size_t row = pixel / width;
+  return ray_through(view.camera, static_cast<double>(pixel % width), static_cast<double>(row));
 }
 
 // Of a point that was measured along a ray, NaN for none.

@@ -153,8 +153,12 @@ struct Place {
 std::vector<Place> best_places(const Profiles& profiles, double inner, double wall, double reach) {
   constexpr double apart = 0.03;  // m
   std::vector<Place> all;
-  for (double middle = -reach; middle < reach; middle += cell)
+  const int places = static_cast<int>(std::ceil(2 * reach / cell));
+  all.reserve(static_cast<std::size_t>(places));
+  for (int i = 0; i < places; ++i) {
+    const double middle = i * cell - reach;
     all.push_back({middle, fit_at(profiles, middle, inner, wall)});
+  }
   std::ranges::sort(all, [](const Place& a, const Place& b) { return a.fit > b.fit; });
   std::vector<Place> best{all.front()};
   const auto second = std::ranges::find_if(
@@ -184,11 +188,12 @@ double reach_of(const Plan& plan) {
 
 // A bin that is turned by 180° is the same.
 std::vector<Placed> places_on(const Plan& plan, const Bin& bin) {
-  constexpr double step = 1.5 * degree;
+  constexpr int yaws = 120;
   constexpr std::size_t kept = 12;
   const double reach = reach_of(plan);
   std::vector<Placed> placed;
-  for (double yaw = 0; yaw < std::numbers::pi - step / 2; yaw += step) {
+  for (int i = 0; i < yaws; ++i) {
+    const double yaw = std::numbers::pi * i / yaws;
     const Vector2d x(std::cos(yaw), std::sin(yaw));
     const Vector2d y(-x.y(), x.x());
     const auto along_x = best_places(profiles_of(plan, x, reach), bin.length, bin.wall, reach);

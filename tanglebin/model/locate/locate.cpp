@@ -79,10 +79,13 @@ bool is_square(const Bin& bin) {
 }
 
 std::vector<Isometry3d> same_poses(const Bin& bin, const Isometry3d& pose) {
-  const double step = is_square(bin) ? std::numbers::pi / 2 : std::numbers::pi;
+  const int count = is_square(bin) ? 4 : 2;
   std::vector<Isometry3d> poses;
-  for (double turn = 0; turn < 2 * std::numbers::pi - degree; turn += step)
+  poses.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const double turn = 2 * std::numbers::pi * i / count;
     poses.push_back(pose * Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
+  }
   return poses;
 }
 
@@ -105,6 +108,7 @@ Difference difference(const Bin& bin, const Isometry3d& first, const Isometry3d&
 // The candidates after a rough fit, the best first.
 std::vector<Candidate> candidates_of(const Task& task, const std::vector<Isometry3d>& poses) {
   std::vector<Candidate> candidates;
+  candidates.reserve(poses.size());
   for (const Isometry3d& pose : poses)
     candidates.push_back(candidate_at(task, moved_near(task.view, task.known, pose)));
   std::ranges::stable_sort(candidates,
@@ -148,12 +152,11 @@ bool is_seen(const Agreement& agreement, std::size_t wall) {
   if (agreement.contradicted.at(rim) > contradicted_max * agreement.expected.at(rim)) return false;
   constexpr int least = 8;
   constexpr double share = 0.1;
-  for (const PartKind kind : {PartKind::rim, PartKind::inner, PartKind::outer}) {
+  return std::ranges::any_of(std::array{PartKind::rim, PartKind::inner, PartKind::outer}, [&](PartKind kind) {
     const std::size_t part = part_of(kind, wall);
     const int explained = agreement.explained.at(part);
-    if (explained >= least && explained > share * agreement.expected.at(part)) return true;
-  }
-  return false;
+    return explained >= least && explained > share * agreement.expected.at(part);
+  });
 }
 
 // Whether a wall that was not seen could not be: it is not in the image, or hidden.
@@ -236,8 +239,8 @@ Fault fault_of(const Agreement& agreement, const Bin& bin) {
         "{:.3f} x {:.3f} m?",
         contradicted, percent(total(agreement.explained), measured), bin.length, bin.width, bin.height);
   }
-  if (const Fault fault = fault_of_inside(agreement)) return fault;
-  if (const Fault fault = fault_of_rim(agreement, bin)) return fault;
+  if (Fault fault = fault_of_inside(agreement)) return fault;
+  if (Fault fault = fault_of_rim(agreement, bin)) return fault;
   return fault_of_walls(agreement);
 }
 
@@ -286,7 +289,7 @@ int advantage(const Candidate& first, const Candidate& second) {
 BinFit best_fit(const Task& task, const std::vector<Candidate>& candidates) {
   for (const Candidate& candidate : candidates) {
     if (!is_possible(candidate, task.known.bin)) continue;
-    const BinFit fit = fit_bin(task.view, task.known, candidate.pose);
+    BinFit fit = fit_bin(task.view, task.known, candidate.pose);
     if (is_determined(task.known.bin, fit)) return fit;
   }
   return fit_bin(task.view, task.known, candidates.front().pose);

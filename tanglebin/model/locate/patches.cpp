@@ -78,7 +78,7 @@ void add_patch(const View& view, int left, int top, int size, std::vector<Patch>
   const Moments moments = moments_of_tile(view, left, top, size, about);
   if (moments.weight < points_min) return;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(moments.covariance());
-  const Vector3d variances = solver.eigenvalues();
+  const Vector3d& variances = solver.eigenvalues();
   if (variances[0] > flatness * variances[1]) return;
   const Vector3d centre = moments.mean() + about.cast<double>();
   const Vector3d normal = towards_camera(solver.eigenvectors().col(0), centre);

@@ -46,7 +46,9 @@ Vector3i BoxGrid::cell_of(const Vector3d& point) const {
 }
 
 std::size_t BoxGrid::index_of(const Vector3i& cell) const {
-  return static_cast<std::size_t>((cell.z() * counts_.y() + cell.y()) * counts_.x() + cell.x());
+  const Eigen::Matrix<std::size_t, 3, 1> place = cell.cast<std::size_t>();
+  const Eigen::Matrix<std::size_t, 3, 1> counts = counts_.cast<std::size_t>();
+  return (place.z() * counts.y() + place.y()) * counts.x() + place.x();
 }
 
 }  // namespace tanglebin

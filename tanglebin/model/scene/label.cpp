@@ -56,6 +56,7 @@ std::vector<Claim> claims_of(const std::vector<Tube>& tubes, double distance_max
 
 BoxGrid grid_of(const std::vector<Claim>& claims) {
   std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(claims.size());
   for (const Claim& claim : claims) boxes.push_back(claim.box);
   return BoxGrid(boxes);
 }

@@ -25,7 +25,7 @@ Seen in_support_frame(const PointCloud& cloud, const KnownScene& known) {
   seen.cloud.height = cloud.height;
   seen.cloud.points.reserve(cloud.points.size());
   for (const Eigen::Vector3f& point : cloud.points)
-    seen.cloud.points.push_back((from_world * point.cast<double>()).cast<float>());
+    seen.cloud.points.emplace_back((from_world * point.cast<double>()).cast<float>());
   seen.known.camera.pose = from_world * known.camera.pose;
   seen.known.support.pose.setIdentity();
   return seen;
