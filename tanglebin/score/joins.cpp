@@ -77,7 +77,9 @@ bool is_on_way(const CentreLine& line, const Place& place, const Piece& piece) {
 // Drops pieces that lie beside a longer one over their whole length: a second fit to the same part of a tube,
 // or an edge that leads back from the end of one cylinder to the beginning of the next where the two overlap.
 Pieces without_repetition(const CentreLine& line, Pieces pieces) {
-  std::ranges::stable_sort(pieces, std::greater(), &Piece::length);
+  // Of pieces that are equally long, such as those beyond the tube's end, the nearest to it is kept.
+  std::ranges::stable_sort(pieces, {},
+                           [](const Piece& piece) { return std::pair(-piece.length, piece.distance); });
   Pieces kept;
   for (const Piece& piece : pieces) {
     const bool repeats = std::ranges::any_of(kept, [&](const Piece& longer) {
