@@ -122,7 +122,8 @@ Vector3d middle_of(const std::vector<Vector3d>& local) {
 std::vector<Vector3d> points_of(const View& view) {
   constexpr std::size_t points_max = 60000;
   std::vector<Vector3d> points;
-  for (const std::size_t pixel : view.sample(points_max)) points.emplace_back(view.points[pixel].cast<double>());
+  for (const std::size_t pixel : view.sample(points_max))
+    points.emplace_back(view.points[pixel].cast<double>());
   return points;
 }
 
