@@ -11,6 +11,7 @@
 #include <string>
 
 #include "fuzz/is_refused.hpp"
+#include "tanglebin/experiment/compare.hpp"
 #include "tanglebin/experiment/results.hpp"
 #include "tanglebin/report/results.hpp"
 
@@ -27,17 +28,27 @@ void write(const fs::path& file, const std::string& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fs::path directory =
       fs::temp_directory_path() / ("tanglebin-fuzz-results-" + std::to_string(getpid()));
-  static const std::array<std::string, 6> files = {"experiment.json",  "results.jsonl",  "times.jsonl",
-                                                   "generation.jsonl", "pictures.jsonl", "journal.jsonl"};
+  static const std::array<std::string, 7> files = {"experiment.json",  "results.jsonl",  "times.jsonl",
+                                                   "generation.jsonl", "pictures.jsonl", "journal.jsonl",
+                                                   "scenes.jsonl"};
   if (size == 0) return 0;
   fs::remove_all(directory);
-  fs::create_directories(directory);
+  fs::create_directories(directory / "out");
   write(
       directory / "experiment.json",
-      R"({"version":"0","dataset_seed":1,"methods":["paper"],"ratios":[0.3],"seed":0,"recipe_sha256":"","cases":1})");
+      R"({"version":"0","dataset_seed":1,"methods":["paper"],"ratios":[0.3],"seed":0,"recipe_sha256":"","recipe":"","cases":1})");
   write(directory / files[data[0] % files.size()], std::string(data + 1, data + size));
   is_refused([&] { tanglebin::read_results_directory(directory); });
-  is_refused([&] { tanglebin::finished_runs(directory); });
+  is_refused([&] {
+    tanglebin::FinishedRuns finished({{"paper"}, {0.3}});
+    finished.add(directory);
+    finished.write(directory / "out", {{"A", 2, 1}}, directory / "out");
+  });
+  is_refused([&] { tanglebin::merge_results({directory}, directory / "out"); });
+  is_refused([&] {
+    for (const auto& [baseline, other] : tanglebin::pairs_to_compare({directory, directory}, {}))
+      tanglebin::compare(baseline, other);
+  });
   fs::remove_all(directory);
   return 0;
 }

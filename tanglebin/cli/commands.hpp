@@ -11,12 +11,15 @@ namespace tanglebin::cli {
 void add_generate(CLI::App& app);
 void add_merge(CLI::App& app);
 void add_verify(CLI::App& app);
+void add_export(CLI::App& app);
 void add_scan(CLI::App& app);
 void add_preview(CLI::App& app);
+void add_view(CLI::App& app);
 void add_locate(CLI::App& app);
 void add_model(CLI::App& app);
 void add_score(CLI::App& app);
 void add_experiment(CLI::App& app);
+void add_compare(CLI::App& app);
 void add_report(CLI::App& app);
 void add_learn(CLI::App& app);
 

@@ -11,6 +11,7 @@ inline constexpr int exit_cases_failed = 3;    ///< the command ran, but cases f
 inline constexpr int exit_faults = 4;          ///< `verify` found faults
 inline constexpr int exit_refused = 5;         ///< the system refused: disk full, out of memory, …
 inline constexpr int exit_nothing_found = 6;   ///< `model`: the scan does not fit its scene, or shows no tube
+inline constexpr int exit_below = 7;           ///< `compare`: worse than --fail-below allows
 inline constexpr int exit_usage = 64;          ///< wrong usage: EX_USAGE of sysexits.h
 
 /// Of a run that a signal interrupted, as a shell reports it: 130 for SIGINT, 143 for SIGTERM.

@@ -3,13 +3,21 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/base/text.hpp"
 #include "tanglebin/cli/arguments.hpp"
+#include "tanglebin/cli/checks.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/exit_status.hpp"
 #include "tanglebin/cli/many_cases.hpp"
@@ -17,10 +25,12 @@
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/cli/scene_options.hpp"
+#include "tanglebin/cli/shard_option.hpp"
 #include "tanglebin/experiment/run_experiment.hpp"
 #include "tanglebin/experiment/summary.hpp"
 #include "tanglebin/report/text.hpp"
 #include "tanglebin/report/write_pictures.hpp"
+#include "tanglebin/report/write_scenes.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -30,23 +40,61 @@ using Clock = std::chrono::steady_clock;
 struct ExperimentArguments {
   std::string dataset;
   std::string out;
-  std::vector<std::string> methods = {name_of(Method::axis)};
+  std::vector<std::string> methods;
+  std::vector<std::string> labels;
+  double time_limit = std::chrono::duration<double>(default_limits().time).count();  ///< s
+  std::optional<double> memory_limit;                                                ///< GiB
   std::string ratios = "0.1:1.0:0.1";
   std::optional<std::string> scene;
   ManyCases many;
+  std::optional<std::string> shard;
   ModelOptions model;
   ProgressStyle progress = ProgressStyle::line;
+  int scenes = 3;
   bool keep = false;
   bool json = false;
 };
 
-// In the order of methods().
-std::vector<Method> methods_of(const ExperimentArguments& arguments) {
+ProcessLimits limits_of(const ExperimentArguments& arguments) {
+  ProcessLimits limits = default_limits();
+  limits.time = time_limit_of(arguments.time_limit);
+  constexpr double gibibyte = 1U << 30U;
+  if (arguments.memory_limit) limits.memory = static_cast<std::uint64_t>(*arguments.memory_limit * gibibyte);
+  return limits;
+}
+
+// The name and what comes after it: "mine=python3 …".
+std::pair<std::string, std::string> named(const std::string& text, const std::string& option) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) throw InputError({"", 0, option}, excerpt(text), "NAME=…");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+// Those that are built in, in the order of methods(); then the commands and the labels, as they were given.
+std::vector<Entry> entries_of(const ExperimentArguments& arguments) {
   std::vector<Method> asked;
-  for (const std::string& name : arguments.methods) asked.push_back(method_named(name));
-  std::vector<Method> result = methods();
-  std::erase_if(result, [&](Method method) { return std::ranges::find(asked, method) == asked.end(); });
-  return result;
+  std::vector<Entry> others;
+  for (const std::string& text : arguments.methods) {
+    if (text.find('=') != std::string::npos) {
+      const auto [name, command] = named(text, "--method");
+      others.push_back({name, command_of(command, std::filesystem::current_path(), limits_of(arguments))});
+    } else {
+      for (const std::string_view name : split(text, ',')) asked.push_back(method_named(std::string(name)));
+    }
+  }
+  for (const std::string& text : arguments.labels) {
+    const auto [name, directory] = named(text, "--labels");
+    others.push_back(
+        {name, LabelsDirectory{std::filesystem::absolute(directory).lexically_normal().string()}});
+  }
+  if (asked.empty() && others.empty()) asked.push_back(Method::axis);
+  std::vector<Entry> entries;
+  for (const Method method : methods()) {
+    if (std::ranges::find(asked, method) != asked.end()) entries.push_back(entry_of(method));
+  }
+  std::ranges::move(others, std::back_inserter(entries));
+  expect_names(entries);
+  return entries;
 }
 
 /// What the results say, and when.
@@ -74,7 +122,7 @@ void print_json(const ExperimentArguments& arguments, const ExperimentSummary& s
   json["ratio"] = findings.ratio;
   json["micro_recall"] = nlohmann::ordered_json::array();
   for (const MeanMicroRecall& mean : findings.means) {
-    json["micro_recall"].push_back({{"method", name_of(mean.method)},
+    json["micro_recall"].push_back({{"method", mean.method},
                                     {"set", mean.set},
                                     {"tubes", mean.tubes},
                                     {"cases", mean.cases},
@@ -97,7 +145,7 @@ void print_means(const std::vector<MeanMicroRecall>& means) {
     return a.method == b.method && a.set == b.set;
   };
   for (auto mean = means.begin(); mean != means.end();) {
-    print_out("{}, set {}:", name_of(mean->method), mean->set);
+    print_out("{}, set {}:", mean->method, mean->set);
     const auto first = mean;
     for (; mean != means.end() && same_line(*first, *mean); ++mean) {
       print_out("{} {:.3f} ({})", mean == first ? "" : ",", mean->mean, cases_of(*mean));
@@ -123,31 +171,30 @@ void print_text(const ExperimentArguments& arguments, const ExperimentSummary& s
   print_failures(findings.failures, arguments.out);
   const RunProgress& run = summary.progress;
   print_out("{}: {} cases modelled in {:.1f} s, {} already there{}\n", arguments.out, run.made,
-            findings.seconds, run.found,
-            summary.was_stopped()
-                ? fmt::format("; stopped, {} to go", run.wanted - run.found - run.made - run.failed)
-                : "");
+            findings.seconds, run.found, summary.was_stopped() ? left_over(run) : "");
 }
 
 void experiment(const ExperimentArguments& arguments) {
-  ExperimentSettings settings{.methods = methods_of(arguments),
+  ExperimentSettings settings{.methods = entries_of(arguments),
                               .ratios = parse_ratios(arguments.ratios, "--downsample"),
                               .model = settings_of(arguments.model),
                               .keep_models = arguments.keep};
   if (arguments.scene) settings.scene = scene_named(*arguments.scene, "");
   expect_dataset(arguments.dataset);
   const Dataset dataset = read_dataset(arguments.dataset);
-  const std::vector<CaseId> wanted = chosen(arguments.many, cases(dataset), arguments.dataset);
+  std::vector<CaseId> wanted = chosen(arguments.many, cases(dataset), arguments.dataset);
+  if (const std::optional<Shard> shard = shard_of(arguments.shard)) wanted = part_of(*shard, wanted);
   const Clock::time_point start = Clock::now();
   const ExperimentSummary summary = [&] {
     ProgressReport progress(arguments.progress);
     return run_experiment(dataset, settings, wanted, arguments.out, arguments.many.jobs, progress.observer());
   }();
-  if (!summary.was_stopped()) write_pictures(arguments.out, dataset, settings);
-  const std::vector<RunResult> results = read_results(arguments.out);
-  const double ratio = ratio_to_show(settings.ratios);
-  const Findings findings{mean_micro_recalls(results, ratio), count_failures(results), ratio,
-                          seconds_since(start)};
+  if (!summary.was_stopped()) {
+    write_pictures(arguments.out, dataset, settings);
+    write_scenes(arguments.out, dataset, settings, static_cast<std::size_t>(arguments.scenes));
+  }
+  const ResultsSummary results = summary_of(arguments.out, settings.ratios);
+  const Findings findings{results.means(), results.failures(), results.ratio(), seconds_since(start)};
   const auto report = arguments.json || arguments.progress == ProgressStyle::json ? print_json : print_text;
   report(arguments, summary, findings);
   for (const FailedModel& failed : summary.failed) {
@@ -167,11 +214,27 @@ void add_experiment(CLI::App& app) {
       ->required();
   command->add_option("--out", arguments->out, "Directory of the results; resumes an interrupted run")
       ->required();
-  command->add_option("--method", arguments->methods, "Methods: axis, paper or axis,paper")
-      ->delimiter(',')
+  command
+      ->add_option(
+          "--method", arguments->methods,
+          "Method, as often as there are some: axis, paper or axis,paper; NAME='COMMAND {cloud} {out}' "
+          "for a program of yours, without a shell (docs/benchmark.md)")
       ->allow_extra_args(false)
+      ->option_text("METHOD [axis]");
+  command
+      ->add_option("--labels", arguments->labels,
+                   "NAME=DIRECTORY of labels that exist already, with a file for each case: "
+                   "A10/plys/1.ply, A10/labels/1.npy, …")
+      ->allow_extra_args(false)
+      ->option_text("LABELS");
+  command->add_option("--time-limit", arguments->time_limit, "Seconds that a command may take for a cloud")
       ->capture_default_str()
-      ->option_text("NAMES [axis]");
+      ->check(number_within(1e-3, 1e9));
+  command
+      ->add_option("--memory-limit", arguments->memory_limit,
+                   "GiB of address space that each process of a command may have")
+      ->check(number_within(1e-3, 1e6))
+      ->option_text("GIB");
   command
       ->add_option("--downsample", arguments->ratios, "Downsampling ratios: 0.3, 0.1,0.3 or first:last:step")
       ->capture_default_str();
@@ -181,16 +244,26 @@ void add_experiment(CLI::App& app) {
                    "camera, tubes whose radius or length is not known")
       ->option_text("FILE");
   add_options(*command, arguments->many);
+  add_shard_option(*command, arguments->shard);
   add_options(*command, arguments->model);
   add_progress_option(*command, arguments->progress);
+  command
+      ->add_option(
+          "--scenes", arguments->scenes,
+          "How many scenes to keep for the report in 3D: of each method's worst, and of those in which "
+          "the methods differ most")
+      ->check(whole_number(0, 1000))
+      ->capture_default_str();
   command->add_flag("--keep", arguments->keep,
                     "Keep the labelled clouds and the tubes, in models/ of the results");
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->footer(
       "Example:\n  tanglebin experiment dataset --out results --downsample 0.3 --tubes 10 --cases 1-3\n"
+      "  tanglebin experiment dataset --out results --method axis --method mine='python3 label.py {cloud} "
+      "{out}'\n"
       "Ctrl-C finishes the cases in progress; run the same command again to resume.\n"
       "Exit status: 3 if runs failed, 130 if interrupted.\n"
-      "Formats: docs/formats.md.");
+      "Formats: docs/formats.md. Your own algorithm: docs/benchmark.md.");
   command->callback([arguments] { experiment(*arguments); });
 }
 

@@ -42,9 +42,7 @@ void print_text(const FillReport& report, const FillSummary& summary, double sec
   print_out("{}: {} cases {} in {:.1f} s, {} already there, {} attempts rejected", report.directory, run.made,
             report.verb, seconds, run.found, run.rejected);
   if (run.failed > 0) print_out(", {} failed", run.failed);
-  if (summary.was_stopped()) {
-    print_out("; stopped, {} to go", run.wanted - run.found - run.made - run.failed);
-  }
+  if (summary.was_stopped()) print_out("{}", left_over(run));
   print_out("\n{}: {}\n", report.directory, text_of(summary.dataset));
 }
 

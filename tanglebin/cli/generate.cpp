@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,7 +7,6 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/checks.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/dry_run.hpp"
 #include "tanglebin/cli/fill_report.hpp"
@@ -16,6 +14,7 @@
 #include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/progress_report.hpp"
+#include "tanglebin/cli/shard_option.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 #include "tanglebin/runs/shard.hpp"
@@ -47,36 +46,10 @@ Recipe recipe_of(const GenerateArguments& arguments) {
   return recipe;
 }
 
-std::optional<std::string> environment_variable(const std::string& name) {
-  const char* value = std::getenv(name.c_str());
-  return value == nullptr ? std::nullopt : std::optional<std::string>(value);
-}
-
-Shard shard_of_the_array() {
-  if (const std::optional<Shard> shard = shard_from(environment_variable)) return *shard;
-  throw InputError({"", 0, "--shard"},
-                   "auto, but neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX is set",
-                   "a Slurm job array or a Kubernetes indexed job; give I/N elsewhere");
-}
-
-// An array may be one over recipes or seeds, so a part is only made if it is asked for.
-void mention_array() {
-  if (const std::optional<std::string> variable = array_variable(environment_variable)) {
-    print_error("tanglebin: making all cases, though {} is set; --shard auto makes only this task's part\n",
-                *variable);
-  }
-}
-
-std::optional<Shard> shard_of(const GenerateArguments& arguments) {
-  if (!arguments.shard) return std::nullopt;
-  if (*arguments.shard == "auto") return shard_of_the_array();
-  return parse_shard(*arguments.shard, "--shard");
-}
-
 void generate(const GenerateArguments& arguments) {
   if (arguments.picture) expect_outputs({{"--picture", *arguments.picture, {".png"}}});
   const Recipe recipe = recipe_of(arguments);
-  const std::optional<Shard> shard = shard_of(arguments);
+  const std::optional<Shard> shard = shard_of(arguments.shard);
   std::vector<CaseId> wanted = chosen(arguments.many, cases(recipe), arguments.recipe);
   if (shard) wanted = part_of(*shard, wanted);
   if (arguments.dry_run) {
@@ -84,7 +57,6 @@ void generate(const GenerateArguments& arguments) {
     return;
   }
   if (recipe.random.empty()) with_file(arguments.recipe, [&] { expect_bin_in_view(recipe); });
-  if (!shard) mention_array();
   const Clock::time_point start = Clock::now();
   const FillSummary summary = [&] {
     ProgressReport progress(arguments.progress);
@@ -93,8 +65,7 @@ void generate(const GenerateArguments& arguments) {
                            .directory = arguments.out,
                            .shard = shard,
                            .jobs = arguments.many.jobs,
-                           .case_limit = std::chrono::duration_cast<TimeLimit>(
-                               std::chrono::duration<double>(arguments.case_limit))},
+                           .case_limit = time_limit_of(arguments.case_limit)},
                           progress.observer());
   }();
   report_fill({arguments.out, "generated", arguments.json, arguments.progress}, summary,
@@ -117,13 +88,8 @@ void add_generate(CLI::App& app) {
                    "With --dry-run, a picture (PNG) of what the scanner sees of the first case")
       ->needs(dry_run);
   add_options(*command, arguments->many);
-  command->add_option(
-      "--shard", arguments->shard,
-      "Generate part I of N of the cases (I/N); auto: this task's of a Slurm job array or Kubernetes indexed "
-      "job");
-  command->add_option("--case-limit", arguments->case_limit, "Seconds after which a case has failed")
-      ->capture_default_str()
-      ->check(number_within(1e-3, 1e9));
+  add_shard_option(*command, arguments->shard);
+  add_case_limit_option(*command, arguments->case_limit);
   command->add_option("--seed", arguments->seed,
                       "Seed, instead of the recipe's: decimal, or hexadecimal after 0x");
   add_progress_option(*command, arguments->progress);

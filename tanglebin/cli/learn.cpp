@@ -5,24 +5,37 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/cli/print.hpp"
+#include "tanglebin/dataset/versions.hpp"
 #include "tanglebin/experiment/learn_confidence.hpp"
 #include "tanglebin/experiment/learn_links.hpp"
+#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/model/parameters.hpp"
+#include "tanglebin/profile/profile.hpp"
 
 namespace tanglebin::cli {
 namespace {
 
 struct LearnArguments {
   std::vector<std::string> datasets;
+  std::optional<std::string> out;
   bool confidence = false;
   bool json = false;
 };
+
+std::vector<Output> outputs(const LearnArguments& arguments) {
+  if (!arguments.out) return {};
+  return {{"--out", *arguments.out, {".toml"}}};
+}
 
 // The examples from every case of the datasets.
 template <typename Example>
@@ -102,24 +115,35 @@ void learn_for_tubes(const LearnArguments& arguments) {
   }
 }
 
+void write_weights(const LinkWeights& weights, const LearnArguments& arguments) {
+  std::ostringstream profile;
+  write_profile(profile, link_parameters(weights),
+                fmt::format("Weights of links, learned by tanglebin {} from {}", versions().at("tanglebin"),
+                            fmt::join(arguments.datasets, ", ")));
+  write_output(*arguments.out, profile.str());
+}
+
 void learn_for_links(const LearnArguments& arguments) {
   const std::vector<EndExample> examples = examples_of(arguments.datasets, end_examples);
   const LinkWeights weights = learn_weights(examples);
+  if (arguments.out) write_weights(weights, arguments);
+  if (take_standard_output(outputs(arguments))) return;
   nlohmann::ordered_json json;
-  for (const auto& [name, kind] : {std::pair{"chain_ends", LinkKind::chain_ends},
-                                   {"tree_ends", LinkKind::tree_ends},
-                                   {"junction", LinkKind::junction}}) {
+  for (const LinkKind kind : link_kinds) {
     const auto [links, true_links] = count(examples, kind);
-    json[name] = {{"links", links}, {"true", true_links}, {"weights", weights.of(kind)}};
+    json[name_of(kind)] = {{"links", links}, {"true", true_links}, {"weights", weights.of(kind)}};
     if (!arguments.json) {
-      print_out("{:<10} {{{:.4f}}}  from {} links, {} true\n", name, fmt::join(weights.of(kind), ", "), links,
-                true_links);
+      print_out("{:<10} {{{:.4f}}}  from {} links, {} true\n", name_of(kind),
+                fmt::join(weights.of(kind), ", "), links, true_links);
     }
   }
   if (arguments.json) print_json_line(json);
 }
 
 void learn(const LearnArguments& arguments) {
+  if (arguments.confidence && arguments.out)
+    throw InputError({"", 0, "--out"}, "a profile has the weights of links, not of --confidence");
+  expect_outputs(outputs(arguments));
   for (const std::string& directory : arguments.datasets) expect_dataset(directory);
   arguments.confidence ? learn_for_tubes(arguments) : learn_for_links(arguments);
 }
@@ -132,13 +156,16 @@ void add_learn(CLI::App& app) {
       app.add_subcommand("learn", "Learn the axis method's weights from the scenes of a dataset");
   command->add_option("datasets", arguments->datasets, "Directories of datasets from `tanglebin generate`")
       ->required();
+  command->add_option(
+      "--out", arguments->out,
+      "Write the weights as a profile (.toml) for --profile of model and experiment; - for standard output");
   command->add_flag(
       "--confidence", arguments->confidence,
       "Learn the weights of a tube's confidence instead of those of links, and say how right the "
       "built-in confidence is");
   command->add_flag("--json", arguments->json, "Print the weights as JSON");
   command->footer(
-      "Example:\n  tanglebin learn dataset\n"
+      "Example:\n  tanglebin learn dataset --out profile.toml\n"
       "The built-in weights are from recipes/learning.toml; those of the confidence from "
       "recipes/confidence.toml and\n"
       "recipes/confidence-zivid.toml (docs/algorithm.md).");

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <malloc.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -20,33 +21,48 @@
 #include "tanglebin/cli/exit_status.hpp"
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/cli/usage.hpp"
+#include "tanglebin/dataset/versions.hpp"
 
 namespace {
 
 using namespace tanglebin::cli;
 
+// "0.2.0 (boost 1.74.0, compiler GNU 12.2.0, …)"
+std::string version_and_build() {
+  tanglebin::Versions others = tanglebin::versions();
+  const std::string version = others.extract("tanglebin").mapped();
+  std::vector<std::string> build;
+  build.reserve(others.size());
+  for (const auto& [name, of] : others) build.push_back(fmt::format("{} {}", name, of));
+  return fmt::format("{} ({})", version, fmt::join(build, ", "));
+}
+
 int run(int argc, char** argv) {
   CLI::App app{
       "Simulate labelled 3D scans of bins of entangled tubes; model the tubes and score the result."};
   app.name("tanglebin");
-  app.set_version_flag("--version", TANGLEBIN_VERSION);
+  app.set_version_flag("--version", version_and_build());
   app.require_subcommand(1);
   add_generate(app);
   add_merge(app);
   add_verify(app);
+  add_export(app);
   add_scan(app);
   add_preview(app);
+  add_view(app);
   add_locate(app);
   add_model(app);
   add_score(app);
   add_experiment(app);
+  add_compare(app);
   add_report(app);
   add_learn(app);
   app.footer(
       "Exit status: 0 done, 2 bad input, 3 cases failed, 4 faults found, 5 the system refused (disk full, "
       "…),\n"
-      "6 a scan that does not fit its scene or shows no tube, 64 wrong usage, 130 and 143 interrupted, 1 an "
-      "error of the program itself.");
+      "6 a scan that does not fit its scene or shows no tube, 7 worse than allowed, 64 wrong usage, 130 and "
+      "143\n"
+      "interrupted, 1 an error of the program itself.");
   app.failure_message(usage_message);
   try {
     std::vector<std::string> arguments = with_current_names({argv + 1, argv + argc});

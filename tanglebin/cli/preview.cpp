@@ -1,27 +1,20 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <cctype>
-#include <cerrno>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
-#include <system_error>
+#include <variant>
+#include <vector>
 
-#include "tanglebin/base/error.hpp"
-#include "tanglebin/base/text.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/checks.hpp"
+#include "tanglebin/cli/cloud_or_tubes.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/cli/scene_options.hpp"
-#include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/images.hpp"
-#include "tanglebin/io/read_cloud.hpp"
 #include "tanglebin/report/picture.hpp"
 
 namespace tanglebin::cli {
@@ -55,39 +48,16 @@ Support support_of(const Options& options) {
   return scene.support.value_or(Support{.shape = Support::Shape::nothing});
 }
 
-/// Distinguishes configurations from clouds by the first character, which also works for pipes.
-Picture draw(std::istream& in, const std::string& name, const Options& options) {
-  const int first = in.peek();
-  if (first == 'p' || first == '#' || first == 'V') {
-    return picture_of_cloud(read_cloud(in, name), view_of(options), name);
-  }
-  if (first == std::istream::traits_type::eof() || std::isdigit(first) == 0) {
-    const bool is_empty = first == std::istream::traits_type::eof();
-    const char character = std::istream::traits_type::to_char_type(first);
-    throw InputError({.file = name, .line = 0, .field = ""},
-                     is_empty ? "an empty file" : excerpt({&character, 1}) + " at the start",
-                     "a configuration, which begins with the number of tubes, or a PLY or PCD cloud");
-  }
-  return picture_of_tubes(read_configuration(in, name), support_of(options), view_of(options), name);
-}
-
-Picture draw_file(const std::string& file, const Options& options) {
-  // Linux lets you open a directory for reading.
-  if (std::filesystem::is_directory(file)) {
-    throw InputError({.file = file, .line = 0, .field = ""}, "a directory", "a configuration or a cloud");
-  }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw InputError({.file = file, .line = 0, .field = ""},
-                     "cannot be opened: " + std::generic_category().message(errno));
-  }
-  return draw(in, file, options);
+Picture draw(const CloudOrTubes& input, const Options& options) {
+  if (const auto* cloud = std::get_if<PointCloud>(&input))
+    return picture_of_cloud(*cloud, view_of(options), options.input);
+  return picture_of_tubes(std::get<std::vector<Tube>>(input), support_of(options), view_of(options),
+                          options.input);
 }
 
 void run(const Options& options) {
   expect_outputs({{"--out", options.out, {".png"}}});
-  const Picture picture =
-      options.input == "-" ? draw(std::cin, "standard input", options) : draw_file(options.input, options);
+  const Picture picture = draw(read_cloud_or_tubes(options.input), options);
   write_output(options.out, color_png(picture.width, picture.height, picture.pixels));
 }
 

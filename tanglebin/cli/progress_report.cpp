@@ -110,6 +110,10 @@ void ProgressReport::print_end_of_case(const CaseEvent& event) {
   print_event(json);
 }
 
+std::string left_over(const RunProgress& run) {
+  return fmt::format("; stopped, {} to go", run.wanted - run.found - run.made - run.failed);
+}
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <string>
 
 #include "tanglebin/cli/progress.hpp"
 #include "tanglebin/dataset/run_observer.hpp"
@@ -52,6 +53,9 @@ private:
   RemainingTime remaining_;
   LogSchedule schedule_;
 };
+
+/// How many cases a run that was stopped has left: "; stopped, 3 to go".
+std::string left_over(const RunProgress& run);
 
 /// Wall-clock time since `start`, s.
 double seconds_since(std::chrono::steady_clock::time_point start);

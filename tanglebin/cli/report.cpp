@@ -31,9 +31,7 @@ void add_report(CLI::App& app) {
       ->required();
   command->add_option("--out", arguments->out, "Self-contained HTML page to write; - for standard output")
       ->required();
-  command->footer(
-      "Needs gnuplot for the plots (Debian: gnuplot-nox).\n\n"
-      "Example:\n  tanglebin report results --out report.html");
+  command->footer("Example:\n  tanglebin report results --out report.html");
   command->callback([arguments] { write_report(*arguments); });
 }
 

@@ -205,10 +205,10 @@ void add_scan(CLI::App& app) {
       ->capture_default_str()
       ->excludes("--scene");
   command
-      ->add_option(
-          "--scanner", arguments->scanner,
-          "Scanner: paper (ideal), gaussian, zivid-one-plus-l or kinect-v1; its camera too, unless the "
-          "scene has one")
+      ->add_option("--scanner", arguments->scanner,
+                   "Scanner: paper (ideal), gaussian, zivid-one-plus-l, kinect-v1 or phoxi; its camera too, "
+                   "unless the "
+                   "scene has one")
       ->option_text("NAME [paper]");
   command
       ->add_option("--parameter", arguments->parameters,

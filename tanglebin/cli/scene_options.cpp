@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <system_error>
+#include <utility>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
@@ -56,6 +57,26 @@ CaseId case_named(const Dataset& dataset, const std::string& name) {
     throw InputError({dataset.directory.string(), 0, ""}, excerpt(name),
                      "a case of the dataset, such as A10/1");
   return *found;
+}
+
+fs::path without_slash(const std::string& name) {
+  return fs::path(name).has_filename() ? fs::path(name) : fs::path(name).parent_path();
+}
+
+/// A dataset's directory and the name of a case.
+struct CasePath {
+  fs::path dataset;
+  std::string name;
+};
+
+// Of a path like DATASET/A10/1, which is no file.
+std::optional<CasePath> case_path(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::exists(path, ignored) || !path.parent_path().has_filename()) return std::nullopt;
+  fs::path dataset = path.parent_path().parent_path();
+  if (dataset.empty()) dataset = ".";
+  if (!is_dataset(dataset)) return std::nullopt;
+  return CasePath{dataset, path.parent_path().filename().string() + "/" + path.filename().string()};
 }
 
 Scene scene_of_simulation(const KnownScene& known) {
@@ -217,15 +238,19 @@ void add_tube_options(CLI::App& command, SceneOptions& options) {
       ->option_text("SEGMENTS");
 }
 
+std::optional<DatasetCase> dataset_case(const std::string& name) {
+  const std::optional<CasePath> path = case_path(without_slash(name));
+  if (!path) return std::nullopt;
+  Dataset dataset = read_dataset(path->dataset);
+  CaseId id = case_named(dataset, path->name);
+  return DatasetCase{std::move(dataset), std::move(id)};
+}
+
 Scene scene_named(const std::string& scene, const std::string& input) {
-  const fs::path path = fs::path(scene).has_filename() ? fs::path(scene) : fs::path(scene).parent_path();
+  const fs::path path = without_slash(scene);
   std::error_code ignored;
   if (is_dataset(path)) return scene_of_dataset(path, input);
-  const fs::path dataset = path.parent_path().parent_path();
-  if (!fs::exists(path, ignored) && path.parent_path().has_filename() &&
-      is_dataset(dataset.empty() ? "." : dataset))
-    return scene_of_case(dataset.empty() ? "." : dataset,
-                         {path.parent_path().filename().string() + "/" + path.filename().string(), ""});
+  if (const auto named = case_path(path)) return scene_of_case(named->dataset, {named->name, ""});
   if (!fs::exists(path, ignored) || fs::is_directory(path, ignored))
     throw InputError({"", 0, "--scene"},
                      excerpt(scene) + (fs::exists(path, ignored) ? ", a directory" : ", nothing"),

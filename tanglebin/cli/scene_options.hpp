@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/scene/resolve_scene.hpp"
 #include "tanglebin/scene/scene.hpp"
 
@@ -37,6 +38,16 @@ void add_tube_options(CLI::App& command, SceneOptions& options);
 /// The scene that --scene names: a scene file, a recipe, a dataset's case as DATASET/A10/1, or a dataset in
 /// which `input`, a file, is. Throws InputError naming what is wrong with it.
 Scene scene_named(const std::string& scene, const std::string& input);
+
+/// A finished case of a dataset.
+struct DatasetCase {
+  Dataset dataset;
+  CaseId id;
+};
+
+/// The case that a path such as DATASET/A10/1 names; none for the path of a file or of nothing in a dataset.
+/// Throws InputError for a case that the dataset does not have.
+std::optional<DatasetCase> dataset_case(const std::string& name);
 
 /// The scene of the options, of which all but --scene override its single values. `input` is the cloud's
 /// file. Throws InputError naming the option.

@@ -17,6 +17,8 @@
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/score_dataset.hpp"
+#include "tanglebin/experiment/measures.hpp"
 #include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/read_cloud.hpp"
@@ -28,6 +30,8 @@ namespace tanglebin::cli {
 namespace {
 
 struct ScoreArguments {
+  std::optional<std::string> dataset;
+  std::optional<std::string> labels;
   std::string truth;
   std::string labelled;
   std::optional<std::string> true_tubes;
@@ -56,51 +60,10 @@ nlohmann::ordered_json confusion_json(const Score& score) {
   return json;
 }
 
-nlohmann::ordered_json number_or_null(const auto& number) {
-  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
-}
-
-nlohmann::ordered_json tube_json(const TubeScore& tube) {
-  return {{"label", tube.label},
-          {"points", tube.points},
-          {"assigned", number_or_null(tube.assigned)},
-          {"correct_points", tube.correct_points},
-          {"null_points", tube.null_points},
-          {"iou", tube.iou}};
-}
-
 nlohmann::ordered_json score_json(const Score& score) {
-  nlohmann::ordered_json json{{"micro_recall", score.micro_recall},
-                              {"points", score.points},
-                              {"correct_points", score.correct_points},
-                              {"null_points", score.null_points},
-                              {"mean_iou", score.mean_iou},
-                              {"precision", score.detection.precision},
-                              {"recall", score.detection.recall},
-                              {"f1", score.detection.f1},
-                              {"panoptic_quality", score.detection.panoptic_quality},
-                              {"adjusted_rand_index", score.adjusted_rand_index},
-                              {"correct", score.instances.correct},
-                              {"over_segmented", score.instances.over_segmented},
-                              {"under_segmented", score.instances.under_segmented},
-                              {"missed", score.instances.missed},
-                              {"noise", score.instances.noise}};
+  nlohmann::ordered_json json = measures_json(score);
   for (const TubeScore& tube : score.tubes) json["tubes"].push_back(tube_json(tube));
   return json;
-}
-
-nlohmann::ordered_json tubes_json(const TubesScore& score) {
-  return {{"centre_line_error", number_or_null(score.centre_line_error)},
-          {"centre_line_error_p95", number_or_null(score.centre_line_error_p95)},
-          {"centre_line_coverage", score.centre_line_coverage},
-          {"complete_tubes", score.complete_tubes},
-          {"length_error", number_or_null(score.length_error)},
-          {"true_joins", score.true_joins},
-          {"joins_found", score.joins_found},
-          {"joins_made", score.joins_made},
-          {"true_junctions", score.true_junctions},
-          {"junctions_found", score.junctions_found},
-          {"junctions_made", score.junctions_made}};
 }
 
 void print_tubes(const Score& score) {
@@ -184,7 +147,7 @@ void score_labels(const ScoreArguments& arguments) {
   const std::optional<TubesScore> tubes_score = score_configurations(arguments);
   if (arguments.json) {
     nlohmann::ordered_json json = score_json(score);
-    if (tubes_score) json.update(tubes_json(*tubes_score));
+    if (tubes_score) json.update(measures_json(*tubes_score));
     if (arguments.confusion) json["confusion"] = confusion_json(score);
     print_json_line(json);
     return;
@@ -197,31 +160,48 @@ void score_labels(const ScoreArguments& arguments) {
 
 void add_score(CLI::App& app) {
   const auto arguments = std::make_shared<ScoreArguments>();
-  CLI::App* command = app.add_subcommand("score", "Score the labels of a cloud against the ground truth");
-  command
-      ->add_option("--truth", arguments->truth,
-                   "Cloud with the true labels (PLY or PCD); - for standard input")
-      ->required();
-  command
-      ->add_option("--labelled", arguments->labelled,
-                   "Cloud with the labels to score: all or some points of the truth, in any order; - for "
-                   "standard input")
-      ->required();
+  CLI::App* command =
+      app.add_subcommand("score", "Score the labels of a cloud, or of a dataset, against the ground truth");
+  CLI::Option* dataset = command->add_option("dataset", arguments->dataset,
+                                             "Directory of a dataset, to score labels of all its scenes");
+  CLI::Option* labels = command->add_option(
+      "labels", arguments->labels,
+      "Directory with a file of labels for each scene: A10/plys/1.ply, A10/labels/1.npy, …");
+  dataset->needs(labels);
+  CLI::Option* truth = command->add_option("--truth", arguments->truth,
+                                           "Cloud with the true labels (PLY or PCD); - for standard input");
+  CLI::Option* labelled = command->add_option(
+      "--labelled", arguments->labelled,
+      "Cloud with the labels to score: all or some points of the truth, in any order; - for "
+      "standard input");
+  truth->needs(labelled)->excludes(dataset);
+  labelled->needs(truth);
   CLI::Option* true_tubes =
       command->add_option("--true-tubes", arguments->true_tubes,
                           "Configuration of the true tubes, to score --modelled-tubes against");
   CLI::Option* tubes = command->add_option("--modelled-tubes", arguments->tubes,
                                            "Configuration of the modelled tubes, to score them too");
-  true_tubes->needs(tubes);
+  true_tubes->needs(tubes)->needs(truth);
   tubes->needs(true_tubes);
   command->add_flag("--json", arguments->json, "Print the score as JSON");
-  command->add_flag("--confusion", arguments->confusion,
-                    "Also print the confusion matrix: points of each tube by label");
+  command
+      ->add_flag("--confusion", arguments->confusion,
+                 "Also print the confusion matrix: points of each tube by label")
+      ->excludes(dataset);
   command->footer(
       "If a cloud has no labels, each of its colours counts as a label, and black as null.\n\n"
       "Example:\n  tanglebin score --truth dataset/A10/plys/1.ply --labelled labelled.ply\n"
+      "  tanglebin score dataset labels\n"
       "Measures: docs/metrics.md. Scoring your own algorithm: docs/scoring.md.");
-  command->callback([arguments] { score_labels(*arguments); });
+  command->callback([arguments] {
+    if (arguments->dataset) {
+      score_dataset(*arguments->dataset, *arguments->labels, arguments->json);
+    } else if (arguments->truth.empty()) {
+      throw CLI::RequiredError("--truth");
+    } else {
+      score_labels(*arguments);
+    }
+  });
 }
 
 }  // namespace tanglebin::cli

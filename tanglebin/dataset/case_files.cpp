@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tanglebin/cloud/cloud.hpp"
+#include "tanglebin/dataset/scene_facts.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/pcd.hpp"
@@ -54,6 +55,14 @@ void add_images(const Recipe& recipe, const CaseId& id, const std::string& scann
   if (output.labels) add("labels", "png", label_png(label_image(view)));
 }
 
+void add_occlusions(const Recipe& recipe, const CaseId& id, const Scanner& scanner,
+                    const std::vector<Tube>& tubes, std::vector<CaseFile>& files) {
+  if (!recipe.output.occlusions) return;
+  const Occlusions seen = occlusions(tubes, whole_views(tubes, scanner.camera), recipe.bin, scanner.camera);
+  files.push_back({file_of(id, "occlusions", "json", scanner.name),
+                   facts_json(seen, contacts(tubes, recipe.bin)).dump() + '\n'});
+}
+
 }  // namespace
 
 std::vector<std::string> paths_of(const Recipe& recipe, const CaseId& id) {
@@ -75,6 +84,7 @@ std::vector<std::string> paths_of(const Recipe& recipe, const CaseId& id) {
       add("depths", "json");
     }
     if (output.labels) add("labels", "png");
+    if (output.occlusions) add("occlusions", "json");
   }
   return paths;
 }
@@ -94,10 +104,12 @@ std::vector<CaseFile> case_files(const Recipe& recipe, const CaseId& id, const S
         }));
   }
   add_images(recipe, id, recipe.scanner_name, scene.scan, files);
+  add_occlusions(recipe, id, scanners(recipe).front(), scene.tubes, files);
   for (std::size_t i = 0; i < recipe.further_scanners.size(); ++i) {
     const std::string& name = recipe.further_scanners[i].name;
     add_cloud(recipe, id, name, scene.further_scans[i], files);
     add_images(recipe, id, name, scene.further_scans[i], files);
+    add_occlusions(recipe, id, recipe.further_scanners[i], scene.tubes, files);
   }
   return files;
 }

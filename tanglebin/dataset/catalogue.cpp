@@ -1,6 +1,5 @@
 #include "tanglebin/dataset/catalogue.hpp"
 
-#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -49,46 +48,6 @@ bool lists_cases(const fs::path& journal) {
   return is_there;
 }
 
-/// Reads lines by their places. Keeps many files open, but not more than a process may.
-class Catalogue::Reader {
-public:
-  explicit Reader(const std::vector<fs::path>& files) {
-    files_.reserve(files.size());
-    for (const fs::path& file : files) files_.push_back({file, std::nullopt});
-  }
-
-  std::string line(const Place& place) {
-    std::string line(place.size, '\0');
-    auto& [file, in] = files_[place.file];
-    if (!in) in = open(file);
-    if (!in) throw InputError({file.string(), place.line, ""}, "has been removed");
-    in->seekg(static_cast<std::streamoff>(place.offset));
-    in->read(line.data(), static_cast<std::streamsize>(line.size()));
-    expect_read(*in, file);
-    if (!*in) throw InputError({file.string(), place.line, ""}, "is shorter than before");
-    return line;
-  }
-
-private:
-  struct File {
-    fs::path path;
-    std::optional<std::ifstream> in;
-  };
-
-  std::optional<std::ifstream> open(const fs::path& file) {
-    constexpr int most_open = 500;
-    if (open_ == most_open) {
-      for (File& other : files_) other.in.reset();
-      open_ = 0;
-    }
-    ++open_;
-    return open_if_there(file);
-  }
-
-  std::vector<File> files_;
-  int open_ = 0;
-};
-
 template <typename Take>
 void Catalogue::read_lines(const fs::path& file, Damage damage, const Take& take) {
   const std::size_t index = files_.size();
@@ -96,7 +55,7 @@ void Catalogue::read_lines(const fs::path& file, Damage damage, const Take& take
   std::uint64_t offset = 0;
   const auto for_each_line = damage == Damage::is_error ? for_each_whole_line : for_each_readable_line;
   for_each_line(file, [&](const std::string& line, std::size_t number) {
-    const Place place{index, offset, line.size(), number};
+    const LinePlace place{index, offset, line.size(), number};
     offset += line.size() + 1;
     take(line, place);
   });
@@ -113,20 +72,20 @@ Catalogue::Catalogue(const fs::path& directory, Damage damage, const std::vector
   // To pass over damaged lines, read them all now; otherwise a line is read when it is needed.
   const bool reads_all = damage == Damage::is_passed_over;
   const std::string manifest = (directory / manifest_name).string();
-  read_lines(manifest, damage, [&](const std::string& line, const Place& place) {
+  read_lines(manifest, damage, [&](const std::string& line, const LinePlace& place) {
     const CaseId id =
         reads_all ? case_record(line, manifest, place.line).id : id_of_line(line, manifest, place.line);
     places_[id].record = place;
   });
   const std::string times = (directory / times_name).string();
-  read_lines(times, damage, [&](const std::string& line, const Place& place) {
+  read_lines(times, damage, [&](const std::string& line, const LinePlace& place) {
     const CaseId id =
         reads_all ? times_record(line, times, place.line).id : id_of_line(line, times, place.line);
     const auto found = places_.find(id);
     if (found != places_.end()) found->second.times = place;
   });
   const std::string failed = (directory / failed_name).string();
-  read_lines(failed, damage, [&](const std::string& line, const Place& place) {
+  read_lines(failed, damage, [&](const std::string& line, const LinePlace& place) {
     add(failed_case(line, failed, place.line));
   });
   for (const fs::path& journal : journals) read_journal(journal);
@@ -135,7 +94,7 @@ Catalogue::Catalogue(const fs::path& directory, Damage damage, const std::vector
 
 void Catalogue::read_journal(const fs::path& file) {
   std::set<Versions> versions;
-  read_lines(file, Damage::is_passed_over, [&](const std::string& line, const Place& place) {
+  read_lines(file, Damage::is_passed_over, [&](const std::string& line, const LinePlace& place) {
     if (line.starts_with(header_start)) {
       versions = tanglebin::made_with(line, file.string(), place.line);
       return;
@@ -145,9 +104,9 @@ void Catalogue::read_journal(const fs::path& file) {
       add(failed_case(line, file.string(), place.line));
       return;
     }
-    Place record = place;
+    LinePlace record = place;
     record.size = middle;
-    Place times = place;
+    LinePlace times = place;
     times.offset += middle + 1;
     times.size -= middle + 1;
     times_record(line.substr(middle + 1), file.string(), place.line);
@@ -169,7 +128,7 @@ const Catalogue::Places& Catalogue::places_of(const CaseId& id) const {
   return found->second;
 }
 
-std::string Catalogue::line_at(const CaseId& id, const Place& place, Reader& reader) const {
+std::string Catalogue::line_at(const CaseId& id, const LinePlace& place, LineReader& reader) const {
   std::string line = reader.line(place);
   const std::string file = files_[place.file].string();
   if (const CaseId found = id_of_line(line, file, place.line); found != id) {
@@ -178,8 +137,8 @@ std::string Catalogue::line_at(const CaseId& id, const Place& place, Reader& rea
   return line;
 }
 
-std::optional<std::string> Catalogue::times_line(const CaseId& id, Reader& reader) const {
-  const Place& place = places_of(id).times;
+std::optional<std::string> Catalogue::times_line(const CaseId& id, LineReader& reader) const {
+  const LinePlace& place = places_of(id).times;
   if (place.size == 0) return std::nullopt;
   return line_at(id, place, reader);
 }
@@ -196,8 +155,8 @@ auto Catalogue::up_to_date(const Read& read) const {
 
 CaseRecord Catalogue::record(const CaseId& id) const {
   return up_to_date([&](const Catalogue& catalogue) {
-    const Place& place = catalogue.places_of(id).record;
-    Reader reader(catalogue.files_);
+    const LinePlace& place = catalogue.places_of(id).record;
+    LineReader reader(catalogue.files_);
     return case_record(catalogue.line_at(id, place, reader), catalogue.files_[place.file].string(),
                        place.line);
   });
@@ -205,10 +164,10 @@ CaseRecord Catalogue::record(const CaseId& id) const {
 
 std::optional<TimesRecord> Catalogue::times(const CaseId& id) const {
   return up_to_date([&](const Catalogue& catalogue) -> std::optional<TimesRecord> {
-    Reader reader(catalogue.files_);
+    LineReader reader(catalogue.files_);
     const std::optional<std::string> line = catalogue.times_line(id, reader);
     if (!line) return std::nullopt;
-    const Place& place = catalogue.places_of(id).times;
+    const LinePlace& place = catalogue.places_of(id).times;
     return times_record(*line, catalogue.files_[place.file].string(), place.line);
   });
 }
@@ -216,7 +175,7 @@ std::optional<TimesRecord> Catalogue::times(const CaseId& id) const {
 void Catalogue::for_each_times_line(const std::vector<CaseId>& order,
                                     const std::function<void(const std::string&)>& take) const {
   const Catalogue* read = nullptr;
-  std::optional<Reader> reader;  // of the catalogue that was read last
+  std::optional<LineReader> reader;  // of the catalogue that was read last
   const auto times_line_of = [&](const CaseId& id) {
     return up_to_date([&](const Catalogue& catalogue) {
       if (std::exchange(read, &catalogue) != &catalogue) reader.emplace(catalogue.files_);
@@ -235,7 +194,7 @@ void Catalogue::add(const FailedCase& failed) {
 
 DatasetSummary Catalogue::write(const std::vector<CaseId>& order, const std::set<Versions>& made_with,
                                 const fs::path& staging) const {
-  Reader reader(files_);
+  LineReader reader(files_);
   StagedFile manifest(directory_ / manifest_name, staging);
   StagedFile times(directory_ / times_name, staging);
   DatasetSummary summary{.recipe_cases = order.size(), .made_with = made_with};
@@ -243,7 +202,7 @@ DatasetSummary Catalogue::write(const std::vector<CaseId>& order, const std::set
   std::string failures;
   for (const CaseId& id : order) {
     if (const auto found = places_.find(id); found != places_.end()) {
-      const Place& place = found->second.record;
+      const LinePlace& place = found->second.record;
       const std::string line = reader.line(place);
       digest.add(case_record(line, files_[place.file].string(), place.line));
       manifest.append(line + '\n');

@@ -15,6 +15,7 @@
 #include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/recipe/case_id.hpp"
 #include "tanglebin/runs/file_lock.hpp"
+#include "tanglebin/runs/line_reader.hpp"
 
 namespace tanglebin {
 
@@ -93,17 +94,10 @@ public:
                        const std::filesystem::path& staging) const;
 
 private:
-  struct Place {
-    std::size_t file = 0;
-    std::uint64_t offset = 0;
-    std::size_t size = 0;
-    std::size_t line = 0;
-  };
   struct Places {
-    Place record;
-    Place times;
+    LinePlace record;
+    LinePlace times;
   };
-  class Reader;
 
   Catalogue(const std::filesystem::path& directory, Damage damage, const DirectoryReadLock& lock);
   void read_journal(const std::filesystem::path& file);
@@ -113,8 +107,8 @@ private:
   // The finished case's places. Throws InputError if it is not listed.
   const Places& places_of(const CaseId& id) const;
   // The line at a case's place. Throws InputError if it is not of this case.
-  std::string line_at(const CaseId& id, const Place& place, Reader& reader) const;
-  std::optional<std::string> times_line(const CaseId& id, Reader& reader) const;
+  std::string line_at(const CaseId& id, const LinePlace& place, LineReader& reader) const;
+  std::optional<std::string> times_line(const CaseId& id, LineReader& reader) const;
   // What `read` returns of this catalogue, or of a later one if a run has moved the lines meanwhile.
   template <typename Read>
   auto up_to_date(const Read& read) const;

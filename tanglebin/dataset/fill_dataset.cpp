@@ -26,15 +26,10 @@ std::string text_of(const Recipe& recipe) {
   return out.str();
 }
 
-// Other shards may begin at the same time: of theirs, journals may be here before the recipe, and new ones
-// come. So the journals are listed after all else, and the recipe is looked for at the end.
+// Other shards may begin at the same time: of theirs, journals may be here before the recipe. So the recipe
+// is looked for at the end.
 void expect_dataset_or_empty(const fs::path& directory) {
-  std::set<fs::path> foreign;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
-    const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (!is_hidden) foreign.insert(entry.path());
-  }
-  for (const fs::path& journal : journals_in(directory)) foreign.erase(journal);
+  const std::set<fs::path> foreign = besides_journals(directory);
   if (foreign.empty() || fs::exists(directory / recipe_name)) return;
   throw InputError({directory.string(), 0, ""},
                    foreign.contains(directory / "experiment.json") ? "the results of an experiment"

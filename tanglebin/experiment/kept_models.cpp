@@ -16,7 +16,7 @@ namespace tanglebin {
 namespace fs = std::filesystem;
 
 std::vector<fs::path> files_of(const RunId& run) {
-  const fs::path folder = fs::path("models") / name_of(run.method) / fmt::format("{}", run.ratio);
+  const fs::path folder = fs::path("models") / run.method / fmt::format("{}", run.ratio);
   return {folder / file_of(run.scene, "plys", "ply"),
           folder / file_of(run.scene, "tube_configurations", "txt"),
           folder / file_of(run.scene, "tubes", "json")};

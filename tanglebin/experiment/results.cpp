@@ -3,20 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
+#include <chrono>
+#include <cstdlib>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/dataset/dataset_summary.hpp"
 #include "tanglebin/dataset/sha256.hpp"
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/experiment/measures.hpp"
+#include "tanglebin/experiment/tables.hpp"
 #include "tanglebin/io/read_file.hpp"
 #include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/model/parameters.hpp"
 #include "tanglebin/recipe/case_json.hpp"
+#include "tanglebin/recipe/recipe.hpp"
 #include "tanglebin/runs/journal.hpp"
 #include "tanglebin/scene/write_scene.hpp"
 
@@ -25,15 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path experiment_of(const fs::path& directory) {
-  return directory / "experiment.json";
-}
-fs::path results_of(const fs::path& directory) {
-  return directory / "results.jsonl";
-}
-fs::path times_of(const fs::path& directory) {
-  return directory / "times.jsonl";
-}
+constexpr const char* results_name = "results.jsonl";
+constexpr const char* generation_name = "generation.jsonl";
 
 // SHA-256 of the program that runs.
 const std::string& program_sha256() {
@@ -42,77 +40,32 @@ const std::string& program_sha256() {
   return hash;
 }
 
-bool is_to_be_tried_again(const RunResult& result) {
-  return result.failure && result.failure->of == FailureOf::worker;
-}
-
 // Separates the lines of a case in the journal; inside the lines, JSON escapes tabs.
 constexpr char separator = '\t';
 
 Json run_json(const RunId& run) {
   Json json = id_json(run.scene);
-  json["method"] = name_of(run.method);
+  json["method"] = run.method;
   json["ratio"] = run.ratio;
   return json;
 }
 
 RunId run_of(const JsonRecord& record) {
-  return {method_named(record.text("method")), id_of(record), record.number("ratio")};
+  return {record.text("method"), id_of(record), record.number("ratio")};
 }
 
-RunResult run_result(const std::string& line, const std::string& file, std::size_t number) {
-  const JsonRecord record(line, file, number);
+std::optional<std::string> text_if_there(const JsonRecord& record, const std::string& field) {
+  if (!record.has(field)) return std::nullopt;
+  return record.text(field);
+}
+
+RunResult run_result(const JsonRecord& record) {
   const std::optional<RunFailure> failure = failure_in(record);
-  return {run_of(record), record.text("case_sha256"), failure ? 0 : record.number("micro_recall"), failure,
-          line};
-}
-
-void add_result(FinishedRuns& finished, const std::string& line, const std::string& file,
-                std::size_t number) {
-  RunResult result = run_result(line, file, number);
-  const RunId run = result.run;
-  finished.results.insert_or_assign(run, std::move(result));
-}
-
-void add_times(FinishedRuns& finished, const std::string& line, const std::string& file, std::size_t number) {
-  finished.times.insert_or_assign(run_of({line, file, number}), line);
-}
-
-void add_journal_line(FinishedRuns& finished, const std::string& line, const std::string& file,
-                      std::size_t number) {
-  for (const std::string_view part : split(line, separator)) {
-    const std::string text(part);
-    const bool is_times = JsonRecord(text, file, number).has("seconds");
-    (is_times ? add_times : add_result)(finished, text, file, number);
-  }
-}
-
-// What the methods are told, as a scene file has it; empty if it is what the recipe says.
-std::string scene_text(const Scene& scene) {
-  std::ostringstream text;
-  write_scene(text, scene);
-  return std::move(text).str();
-}
-
-// Everything that the results depend on, besides the cases themselves.
-Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings) {
-  Json json{{"version", TANGLEBIN_VERSION},
-            {"program_sha256", program_sha256()},
-            {"dataset_seed", dataset.recipe.seed}};
-  json["methods"] = Json::array();
-  for (const Method method : settings.methods) json["methods"].push_back(name_of(method));
-  json["ratios"] = settings.ratios;
-  json["seed"] = settings.model.seed;
-  json["parameters"] = changed_parameters(settings.model);
-  json["recipe_sha256"] = dataset.recipe_sha256;
-  json["scene"] = scene_text(settings.scene);
-  return json;
-}
-
-// The text of experiment.json, which also has the number of cases with results.
-std::string experiment_text(Json experiment, std::size_t cases) {
-  experiment["cases"] = cases;
-  return experiment.dump() + '\n';
+  return {.run = run_of(record),
+          .case_sha256 = record.text("case_sha256"),
+          .micro_recall = failure ? 0 : record.number("micro_recall"),
+          .failure = failure,
+          .labels_sha256 = text_if_there(record, "labels_sha256")};
 }
 
 Json result_head(const RunId& run, const std::string& case_sha256) {
@@ -121,46 +74,121 @@ Json result_head(const RunId& run, const std::string& case_sha256) {
   return json;
 }
 
-// Calls `take` with every run of the experiment, in the order of the results' lines.
-void for_each_run(const std::vector<CaseId>& cases, const ExperimentSettings& settings,
-                  const std::function<void(const RunId&)>& take) {
-  for (const Method method : settings.methods)
-    for (const CaseId& id : cases)
-      for (const double ratio : settings.ratios) take({method, id, ratio});
+// ---- experiment.json
+
+// What the methods are told, as a scene file has it; empty if it is what the recipe says.
+std::string scene_text(const Scene& scene) {
+  std::ostringstream text;
+  write_scene(text, scene);
+  return std::move(text).str();
+}
+
+Json limits_json(const ProcessLimits& limits) {
+  Json json;
+  json["time_limit"] = std::chrono::duration<double>(limits.time).count();
+  json["memory_limit"] = limits.memory ? Json(*limits.memory) : Json();
+  return json;
+}
+
+Json json_of(const Command& command) {
+  Json json{{"command", command.text}};
+  json.update(limits_json(command.limits));
+  json["sha256"] = Json::object();
+  for (const auto& [file, sha256] : command.sha256) json["sha256"][file] = sha256;
+  return json;
+}
+
+// Of the methods that are not built in, by name.
+Json others_json(const std::vector<Entry>& entries) {
+  Json json = Json::object();
+  for (const Entry& entry : entries) {
+    if (const auto* command = std::get_if<Command>(&entry.what)) json[entry.name] = json_of(*command);
+    if (const auto* labels = std::get_if<LabelsDirectory>(&entry.what))
+      json[entry.name] = {{"labels", labels->path}};
+  }
+  return json;
+}
+
+// Everything that the results depend on, besides the cases themselves.
+Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings) {
+  Json json{{"version", TANGLEBIN_VERSION},
+            {"program_sha256", program_sha256()},
+            {"dataset_seed", dataset.recipe.seed}};
+  json["methods"] = grid_of(settings).methods;
+  json["other_methods"] = others_json(settings.methods);
+  json["ratios"] = settings.ratios;
+  json["seed"] = settings.model.seed;
+  json["parameters"] = changed_parameters(settings.model);
+  json["recipe_sha256"] = dataset.recipe_sha256;
+  json["scene"] = scene_text(settings.scene);
+  json["recipe"] = read_file(dataset.directory / recipe_name);
+  return json;
+}
+
+// The text of experiment.json, which also has the dataset's digest and the number of cases with results.
+std::string experiment_text(Json experiment, const Json& digest, std::size_t cases) {
+  experiment["dataset_digest"] = digest;
+  experiment["cases"] = cases;
+  return experiment.dump() + '\n';
+}
+
+Json digest_of(const Dataset& dataset) {
+  const std::optional<DatasetSummary> summary = read_dataset_summary(dataset.directory);
+  return summary ? Json(summary->digest) : Json();
+}
+
+JsonRecord read_experiment(const fs::path& directory) {
+  const fs::path file = directory / experiment_name;
+  return {read_file(file), file.string(), 0};
+}
+
+// Of the file, and the same of another one.
+void expect_same_experiment(const Json& wanted, const JsonRecord& found, const fs::path& directory,
+                            const std::string& remedy) {
+  for (const auto& [key, value] : wanted.items()) {
+    const Json other = found.json().value(key, Json());
+    if (other == value) continue;
+    throw InputError({(directory / experiment_name).string(), 0, key},
+                     fmt::format("the directory belongs to another {}: it has {}, this one {}{}",
+                                 key == "program_sha256" ? "build of the program" : "experiment",
+                                 other.dump(), value.dump(), remedy));
+  }
+}
+
+RunGrid grid_of(const JsonRecord& experiment) {
+  constexpr double least = std::numeric_limits<double>::min();
+  return {experiment.texts("methods"), experiment.numbers("ratios", least, 1)};
 }
 
 }  // namespace
 
-std::string result_json(const RunId& run, const std::string& case_sha256, const Model& model,
+// ---- lines
+
+Circumstances circumstances(int jobs) {
+  Circumstances now{.processor = {}, .jobs = jobs};
+  constexpr std::string_view key = "model name";
+  for_each_line("/proc/cpuinfo", [&](const FileLine& line) {
+    const std::size_t colon = line.text.find(": ");
+    if (now.processor.empty() && line.text.starts_with(key) && colon != std::string::npos)
+      now.processor = line.text.substr(colon + 2);
+  });
+  getloadavg(&now.load, 1);
+  return now;
+}
+
+std::string result_json(const RunId& run, const std::string& case_sha256, const Modelled& modelled,
                         const ModelScore& score) {
-  const auto& [labels, tubes] = score;
   Json json = result_head(run, case_sha256);
-  json["points"] = labels.points;
-  json["micro_recall"] = labels.micro_recall;
-  json["mean_iou"] = labels.mean_iou;
-  json["precision"] = labels.detection.precision;
-  json["recall"] = labels.detection.recall;
-  json["f1"] = labels.detection.f1;
-  json["panoptic_quality"] = labels.detection.panoptic_quality;
-  json["adjusted_rand_index"] = labels.adjusted_rand_index;
-  json["correct"] = labels.instances.correct;
-  json["over_segmented"] = labels.instances.over_segmented;
-  json["under_segmented"] = labels.instances.under_segmented;
-  json["missed"] = labels.instances.missed;
-  json["noise"] = labels.instances.noise;
-  json["tubes_found"] = model.tubes.size();
-  json["centre_line_error"] = tubes.centre_line_error ? Json(*tubes.centre_line_error) : Json();
-  json["centre_line_coverage"] = tubes.centre_line_coverage;
-  json["complete_tubes"] = tubes.complete_tubes;
-  json["length_error"] = tubes.length_error ? Json(*tubes.length_error) : Json();
-  json["true_joins"] = tubes.true_joins;
-  json["joins_found"] = tubes.joins_found;
-  json["joins_made"] = tubes.joins_made;
-  json["true_junctions"] = tubes.true_junctions;
-  json["junctions_found"] = tubes.junctions_found;
-  json["junctions_made"] = tubes.junctions_made;
+  if (modelled.labels_sha256) json["labels_sha256"] = *modelled.labels_sha256;
+  json.update(measures_json(score.labels));
+  if (score.tubes) {
+    json["tubes_found"] = modelled.model.tubes.size();
+    json.update(measures_json(*score.tubes));
+  }
+  json["each_tube"] = Json::array();
+  for (const TubeScore& tube : score.labels.tubes) json["each_tube"].push_back(tube_json(tube));
   json["counts"] = Json::object();
-  for (const Step& step : model.steps) json["counts"][step.name] = step.count;
+  for (const Step& step : modelled.model.steps) json["counts"][step.name] = step.count;
   return json.dump();
 }
 
@@ -170,11 +198,14 @@ std::string failure_json(const RunId& run, const std::string& case_sha256, const
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string times_json(const RunId& run, const Model& model, double seconds) {
+std::string times_json(const RunId& run, const Modelled& modelled, const Circumstances& circumstances) {
   Json json = run_json(run);
-  json["seconds"] = seconds;
+  json["seconds"] = modelled.seconds.value_or(0);
   json["steps"] = Json::object();
-  for (const Step& step : model.steps) json["steps"][step.name] = step.seconds;
+  for (const Step& step : modelled.model.steps) json["steps"][step.name] = step.seconds;
+  json["processor"] = circumstances.processor;
+  json["jobs"] = circumstances.jobs;
+  json["load"] = circumstances.load;
   return json.dump();
 }
 
@@ -182,107 +213,250 @@ std::string journal_line(const std::vector<std::string>& lines) {
   return fmt::format("{}", fmt::join(lines, std::string(1, separator)));
 }
 
-bool FinishedRuns::has(const CaseId& id, const ExperimentSettings& settings) const {
-  bool all = true;
-  for_each_run({id}, settings, [&](const RunId& run) {
-    const auto found = results.find(run);
-    all = all && found != results.end() && !is_to_be_tried_again(found->second);
-  });
-  return all;
+// ---- finished runs
+
+RunId RunGrid::run(std::size_t index, const CaseId& id) const {
+  return {methods[index / ratios.size()], id, ratios[index % ratios.size()]};
 }
 
-void FinishedRuns::forget_changed_cases(const Dataset& dataset) {
-  std::map<CaseId, std::string> now;
-  for (const auto& [run, result] : results) {
-    const CaseId& id = run.scene;
-    if (now.contains(id)) continue;
+std::size_t RunGrid::index_of(const RunId& run) const {
+  const auto method = std::ranges::find(methods, run.method);
+  if (method == methods.end())
+    throw InputError({"", 0, "method"}, excerpt(run.method), fmt::format("{}", fmt::join(methods, ", ")));
+  const auto ratio = std::ranges::find(ratios, run.ratio);
+  if (ratio == ratios.end())
+    throw InputError({"", 0, "ratio"}, fmt::format("{}", run.ratio),
+                     fmt::format("{}", fmt::join(ratios, ", ")));
+  return static_cast<std::size_t>(method - methods.begin()) * ratios.size() +
+         static_cast<std::size_t>(ratio - ratios.begin());
+}
+
+RunGrid grid_of(const ExperimentSettings& settings) {
+  RunGrid grid{.methods = {}, .ratios = settings.ratios};
+  for (const Entry& entry : settings.methods) grid.methods.push_back(entry.name);
+  return grid;
+}
+
+void FinishedRuns::add(const fs::path& directory) {
+  const auto read = [&](const fs::path& file, const auto& for_each_line_of, auto add_line) {
+    const std::size_t index = files_.size();
+    files_.push_back(file);
+    std::uint64_t offset = 0;
+    for_each_line_of(file, [&](const std::string& line, std::size_t number) {
+      const LinePlace place{index, offset, line.size(), number};
+      offset += line.size() + 1;
+      (this->*add_line)(line, place);
+    });
+  };
+  read(directory / results_name, for_each_whole_line, &FinishedRuns::add_result);
+  read(directory / times_name, for_each_whole_line, &FinishedRuns::add_times);
+  for (const fs::path& journal : journals_in(directory))
+    read(journal, for_each_readable_line, &FinishedRuns::add_journal_line);
+}
+
+void FinishedRuns::add_result(const std::string& line, const LinePlace& place) {
+  const std::string file = files_[place.file].string();
+  const RunResult result = run_result({line, file, place.line});
+  const std::size_t index = with_file(file, [&] { return grid_.index_of(result.run); });
+  Case& its = cases_[result.run.scene];
+  if (its.sha256 != result.case_sha256) its = {result.case_sha256, std::vector<Run>(grid_.size())};
+  State state = State::scored;
+  if (result.failure) {
+    state = result.failure->of == FailureOf::worker ? State::to_be_tried_again : State::failed;
+  }
+  its.runs[index] = {.result = place, .state = state, .has_labels_sha256 = result.labels_sha256.has_value()};
+}
+
+void FinishedRuns::add_times(const std::string& line, const LinePlace& place) {
+  const std::string file = files_[place.file].string();
+  const RunId run = run_of({line, file, place.line});
+  const std::size_t index = with_file(file, [&] { return grid_.index_of(run); });
+  const auto its = cases_.find(run.scene);
+  if (its != cases_.end()) its->second.runs[index].times = place;
+}
+
+void FinishedRuns::add_journal_line(const std::string& line, const LinePlace& place) {
+  LinePlace part = place;
+  for (const std::string_view text : split(line, separator)) {
+    part.size = text.size();
+    const std::string copy(text);
+    const bool is_times = JsonRecord(copy, files_[place.file].string(), place.line).has("seconds");
+    (this->*(is_times ? &FinishedRuns::add_times : &FinishedRuns::add_result))(copy, part);
+    part.offset += text.size() + 1;
+  }
+}
+
+void FinishedRuns::merge(const fs::path& directory) {
+  FinishedRuns other(grid_);
+  other.add(directory);
+  LineReader reader(files_);
+  LineReader other_reader(other.files_);
+  for (auto& [id, its] : other.cases_) {
+    Case& own = cases_.try_emplace(id, Case{its.sha256, std::vector<Run>(grid_.size())}).first->second;
+    if (own.sha256 != its.sha256)
+      throw InputError({directory.string(), 0, name_of(id)}, "another scene than in another part");
+    for (std::size_t i = 0; i < its.runs.size(); ++i) {
+      Run& theirs = its.runs[i];
+      if (theirs.state == State::missing) continue;
+      const bool is_final = own.runs[i].state == State::scored || own.runs[i].state == State::failed;
+      const bool is_theirs_final = theirs.state == State::scored || theirs.state == State::failed;
+      if (is_final && is_theirs_final &&
+          reader.line(own.runs[i].result) != other_reader.line(theirs.result)) {
+        const RunId run = grid_.run(i, id);
+        throw InputError(
+            {directory.string(), 0, name_of(id)},
+            fmt::format("another result of {} at ratio {} than in another part", run.method, run.ratio));
+      }
+      if (is_final) continue;
+      theirs.result.file += files_.size();
+      theirs.times.file += files_.size();
+      own.runs[i] = theirs;
+    }
+  }
+  files_.insert(files_.end(), other.files_.begin(), other.files_.end());
+}
+
+bool FinishedRuns::has(const CaseId& id) const {
+  const auto its = cases_.find(id);
+  return its != cases_.end() && std::ranges::all_of(its->second.runs, [](const Run& run) {
+           return run.state == State::scored || run.state == State::failed;
+         });
+}
+
+bool FinishedRuns::is_failed(const RunId& run) const {
+  const auto its = cases_.find(run.scene);
+  return its != cases_.end() && its->second.runs[grid_.index_of(run)].state == State::failed;
+}
+
+void FinishedRuns::expect_cases_among(const std::vector<CaseId>& cases, const std::string& source) const {
+  const std::set<CaseId> known(cases.begin(), cases.end());
+  for (const auto& [id, its] : cases_) {
+    if (!known.contains(id)) throw InputError({source, 0, name_of(id)}, "not a case of the recipe");
+  }
+}
+
+void FinishedRuns::forget_changed(const Dataset& dataset, const ExperimentSettings& settings) {
+  std::vector<CaseId> changed;
+  for (const auto& [id, its] : cases_) {
     if (!dataset.catalogue.has(id)) {
       throw InputError({dataset.directory.string(), 0, name_of(id)},
                        "the dataset lacks this case, which the results have; use another directory for its "
                        "results");
     }
-    now.emplace(id, case_sha256(dataset, id));
+    if (its.sha256 != case_sha256(dataset, id) || has_other_labels(id, its, settings)) changed.push_back(id);
   }
-  const auto is_changed = [&](const auto& entry) {
-    return entry.second.case_sha256 != now.at(entry.first.scene);
-  };
-  for (const auto& entry : results) {
-    if (is_changed(entry)) times.erase(entry.first);
-  }
-  std::erase_if(results, is_changed);
+  for (const CaseId& id : changed) cases_.erase(id);
 }
 
-FinishedRuns finished_runs(const fs::path& directory) {
-  FinishedRuns finished;
-  const auto read = [&](const fs::path& file, const auto& add) {
-    for_each_whole_line(file, [&](const std::string& line, std::size_t number) {
-      add(finished, line, file.string(), number);
-    });
-  };
-  read(results_of(directory), add_result);
-  read(times_of(directory), add_times);
-  for (const fs::path& journal : journals_in(directory)) {
-    for_each_readable_line(journal, [&](const std::string& line, std::size_t number) {
-      add_journal_line(finished, line, journal.string(), number);
-    });
+bool FinishedRuns::has_other_labels(const CaseId& id, const Case& finished,
+                                    const ExperimentSettings& settings) const {
+  LineReader reader(files_);
+  for (std::size_t i = 0; i < finished.runs.size(); ++i) {
+    const auto* directory = std::get_if<LabelsDirectory>(&settings.methods[i / grid_.ratios.size()].what);
+    if (directory == nullptr || finished.runs[i].state != State::scored) continue;
+    const LinePlace& place = finished.runs[i].result;
+    const RunResult result = run_result({reader.line(place), files_[place.file].string(), place.line});
+    if (result.labels_sha256 != labels_sha256(*directory, id, result.run.ratio)) return true;
   }
-  return finished;
+  return false;
 }
+
+std::size_t FinishedRuns::write(const fs::path& directory, const std::vector<CaseId>& order,
+                                const fs::path& staging) const {
+  LineReader reader(files_);
+  StagedFile results(directory / results_name, staging);
+  StagedFile times(directory / times_name, staging);
+  ResultTables tables(directory, staging);
+  for (std::size_t method = 0; method < grid_.methods.size(); ++method) {
+    for (const CaseId& id : order) {
+      const auto its = cases_.find(id);
+      if (its == cases_.end()) continue;
+      for (std::size_t ratio = 0; ratio < grid_.ratios.size(); ++ratio) {
+        const Run& run = its->second.runs[method * grid_.ratios.size() + ratio];
+        if (run.state == State::missing) continue;
+        const std::string line = reader.line(run.result);
+        results.append(line + '\n');
+        tables.add({line, files_[run.result.file].string(), run.result.line});
+        if (run.times.size > 0) times.append(reader.line(run.times) + '\n');
+      }
+    }
+  }
+  times.commit();
+  results.commit();
+  tables.commit();
+  sync_directory(directory);
+  return static_cast<std::size_t>(std::ranges::count_if(order, [&](const CaseId& id) { return has(id); }));
+}
+
+// ---- a results directory
 
 void expect_free(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings) {
   if (fs::exists(directory / recipe_name))
     throw InputError({directory.string(), 0, ""}, "a dataset", "a directory for results");
-  const fs::path file = experiment_of(directory);
-  const std::optional<std::string> text = read_if_there(file);
-  if (!text) return;
-  const JsonRecord found(*text, file.string(), 0);
-  const Json wanted = experiment_json(dataset, settings);
-  for (const auto& [key, value] : wanted.items()) {
-    const Json other = found.json().value(key, Json());
-    if (other == value) continue;
-    throw InputError({file.string(), 0, key},
-                     fmt::format("the directory belongs to another {}: it has {}, this one {}; use another "
-                                 "directory",
-                                 key == "program_sha256" ? "build of the program" : "experiment",
-                                 other.dump(), value.dump()));
-  }
+  if (!fs::exists(directory / experiment_name)) return;
+  expect_same_experiment(experiment_json(dataset, settings), read_experiment(directory), directory,
+                         "; use another directory");
 }
 
 void claim(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings) {
   expect_free(directory, dataset, settings);
-  const fs::path file = experiment_of(directory);
-  if (!fs::exists(file)) write_file(file, experiment_text(experiment_json(dataset, settings), 0));
+  const fs::path file = directory / experiment_name;
+  if (!fs::exists(file))
+    write_file(file, experiment_text(experiment_json(dataset, settings), digest_of(dataset), 0));
 }
 
 void write_results(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings,
-                   const FinishedRuns& finished) {
+                   const FinishedRuns& finished, const fs::path& staging) {
   const std::vector<CaseId> all = cases(dataset.recipe);
-  const auto count = std::ranges::count_if(all, [&](const CaseId& id) { return finished.has(id, settings); });
-  std::string results;
-  std::string times;
-  for_each_run(all, settings, [&](const RunId& run) {
-    if (const auto found = finished.results.find(run); found != finished.results.end())
-      results += found->second.json + '\n';
-    if (const auto found = finished.times.find(run); found != finished.times.end())
-      times += found->second + '\n';
-  });
-  StagedFile generation(directory / "generation.jsonl", directory);
+  StagedFile generation(directory / generation_name, staging);
   dataset.catalogue.for_each_times_line(all,
                                         [&](const std::string& line) { generation.append(line + '\n'); });
   generation.commit();
-  write_file(times_of(directory), times);
-  write_file(results_of(directory), results);
-  write_file(experiment_of(directory),
-             experiment_text(experiment_json(dataset, settings), static_cast<std::size_t>(count)));
+  const std::size_t count = finished.write(directory, all, staging);
+  write_file(directory / experiment_name,
+             experiment_text(experiment_json(dataset, settings), digest_of(dataset), count));
 }
 
-std::vector<RunResult> read_results(const fs::path& directory) {
-  const fs::path file = results_of(directory);
-  std::vector<RunResult> results;
+std::size_t merge_results(const std::vector<fs::path>& parts, const fs::path& directory) {
+  if (parts.empty()) throw InputError({}, "no results to merge");
+  if (fs::exists(directory / recipe_name))
+    throw InputError({directory.string(), 0, ""}, "a dataset", "a directory for results");
+  const JsonRecord first = read_experiment(parts.front());
+  Json experiment = first.json();
+  Json digest = experiment.value("dataset_digest", Json());
+  for (const char* key : {"dataset_digest", "cases"}) experiment.erase(key);
+  std::vector<fs::path> all = parts;
+  if (fs::exists(directory / experiment_name)) all.insert(all.begin(), directory);
+  for (const fs::path& part : all) {
+    const JsonRecord found = read_experiment(part);
+    expect_same_experiment(experiment, found, part, "");
+    if (found.json().value("dataset_digest", Json()) != digest) digest = Json();
+  }
+
+  make_directories(directory);
+  const Journal journal(directory);
+  FinishedRuns merged(grid_of(first));
+  for (const fs::path& part : all) merged.merge(part);
+  std::istringstream recipe(first.text("recipe"));
+  const std::string source = (parts.front() / experiment_name).string() + ": recipe";
+  const std::vector<CaseId> order = cases(read_recipe(recipe, source));
+  merged.expect_cases_among(order, source);
+  if (const auto generation =
+          read_if_there(parts.front() / generation_name, std::numeric_limits<std::size_t>::max()))
+    write_staged(directory / generation_name, *generation, journal.staging());
+  const std::size_t count = merged.write(directory, order, journal.staging());
+  write_file(directory / experiment_name, experiment_text(experiment, digest, count));
+  journal.clear();
+  return count;
+}
+
+void for_each_result(const fs::path& directory,
+                     const std::function<void(const RunResult&, const JsonRecord&)>& take) {
+  const fs::path file = directory / results_name;
   for_each_whole_line(file, [&](const std::string& line, std::size_t number) {
-    results.push_back(run_result(line, file.string(), number));
+    const JsonRecord record(line, file.string(), number);
+    take(run_result(record), record);
   });
-  return results;
 }
 
 }  // namespace tanglebin

@@ -1,6 +1,8 @@
 #include "tanglebin/experiment/run.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
@@ -9,12 +11,13 @@
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/scene/resolve_scene.hpp"
 #include "tanglebin/score/score_clouds.hpp"
+#include "tanglebin/score/shown_labels.hpp"
 
 namespace tanglebin {
 namespace {
 
 TubeKind known_kind(const TubeSpec& spec) {
-  TubeKind kind{.radius = spec.radius, .segments = {spec.segments.begin(), spec.segments.end()}};
+  TubeKind kind{.radius = spec.radius, .segments = segments_of(spec), .flat_ends = spec.flat_ends};
   kind.length_min = kind.length();
   return kind;
 }
@@ -25,6 +28,13 @@ PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int
   cloud.labels = std::move(labels);
   cloud.width = cloud.points.size();
   return cloud;
+}
+
+std::vector<std::int32_t> ids_of(const std::vector<Tube>& tubes) {
+  std::vector<std::int32_t> ids;
+  ids.reserve(tubes.size());
+  for (const Tube& tube : tubes) ids.push_back(tube.id);
+  return ids;
 }
 
 }  // namespace
@@ -59,39 +69,37 @@ KnownScene known_scene(const Recipe& recipe, const CaseData& data, const CaseId&
   return with_file(data.cloud_file, [&] { return resolve(scene, data.cloud).known; });
 }
 
+std::uint64_t model_seed(const ExperimentSettings& settings, const CaseId& id) {
+  constexpr int no_attempt = 0;  // scenes' attempts count from 1, so their seeds differ from the model's
+  return attempt_seed(settings.model.seed, id.set, id.tubes, id.number, no_attempt);
+}
+
 Model model_case(const KnownScene& known, const CaseData& data, const RunId& run,
                  const ExperimentSettings& settings) {
-  const CaseId& id = run.scene;
   ModelSettings model = settings.model;
-  model.method = run.method;
+  model.method = method_named(run.method);
   model.ratio = run.ratio;
-  constexpr int no_attempt = 0;  // scenes' attempts count from 1, so their seeds differ from the model's
-  model.seed = attempt_seed(settings.model.seed, id.set, id.tubes, id.number, no_attempt);
+  model.seed = model_seed(settings, run.scene);
   return with_file(data.cloud_file, [&] { return model_tubes(data.cloud, known, model); });
 }
 
-ModelScore score_model(const CaseData& data, const Model& model) {
+ModelScore score_model(const CaseData& data, const Model& model, bool has_tubes) {
   const std::vector<std::int32_t> truth = picked(truth_labels(data.cloud, data.cloud_file), model.filtered);
   if (std::ranges::none_of(truth, [](std::int32_t label) { return label > bin_label; })) {
     throw InputError({data.cloud_file, 0, ""}, "no point on a tube is left after filtering");
   }
-  return {score(truth, picked(model.labels, model.filtered)), score_tubes(data.tubes, model.tubes)};
+  ModelScore found{score(truth, picked(model.labels, model.filtered)), std::nullopt};
+  if (has_tubes) found.tubes = score_tubes(data.tubes, model.tubes);
+  return found;
 }
 
 ComparedClouds compared_clouds(const CaseData& data, const Model& model) {
-  const Score labels_score = score_model(data, model).labels;
-  std::map<std::int32_t, std::int32_t> shown_as{{bin_label, bin_label}, {null_label, null_label}};
-  std::int32_t largest = bin_label;
-  for (const Tube& tube : data.tubes) largest = std::max(largest, tube.id);
-  for (const TubeScore& tube : labels_score.tubes) {
-    if (tube.assigned) shown_as[*tube.assigned] = tube.label;
-  }
-  for (const Tube& tube : model.tubes) {
-    if (!shown_as.contains(tube.id)) shown_as[tube.id] = ++largest;
-  }
-
   const std::vector<Eigen::Vector3f> points = picked(data.cloud.points, model.filtered);
   std::vector<std::int32_t> labels = picked(model.labels, model.filtered);
+  std::set<std::int32_t> found(labels.begin(), labels.end());
+  for (const std::int32_t id : ids_of(model.tubes)) found.insert(id);
+  const std::map<std::int32_t, std::int32_t> shown_as =
+      shown_labels(score_model(data, model, false).labels, ids_of(data.tubes), {found.begin(), found.end()});
   for (std::int32_t& label : labels) label = shown_as.at(label);
   return {unorganized(points, picked(truth_labels(data.cloud, data.cloud_file), model.filtered)),
           unorganized(points, std::move(labels))};

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/experiment/entry.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/scene/scene.hpp"
 #include "tanglebin/score/score.hpp"
@@ -15,16 +18,17 @@ namespace tanglebin {
 
 /// What to run on every case: each method with each ratio.
 struct ExperimentSettings {
-  std::vector<Method> methods = tanglebin::methods();  ///< in the order of methods(), without duplicates
-  std::vector<double> ratios;                          ///< ascending, each in (0, 1]
-  ModelSettings model{};     ///< its seed is combined with each case's name; method and ratio are ignored
-  Scene scene{};             ///< what to tell the methods instead of what the recipe says
-  bool keep_models = false;  ///< also keep the labelled clouds and the tubes (kept_models.hpp)
+  std::vector<Entry> methods =
+      built_in_entries();      ///< in the order of the results, as expect_names() expects
+  std::vector<double> ratios;  ///< ascending, each in (0, 1]
+  ModelSettings model{};       ///< its seed is combined with each case's name; method and ratio are ignored
+  Scene scene{};               ///< what to tell the methods instead of what the recipe says
+  bool keep_models = false;    ///< also keep the labelled clouds and the tubes (kept_models.hpp)
 };
 
 /// Identifies one run.
 struct RunId {
-  Method method;
+  std::string method;  ///< an entry's name
   CaseId scene;
   double ratio;
 
@@ -45,26 +49,29 @@ KnownScene known_scene(const Recipe& recipe, const CaseId& id);
 /// does, naming the case's cloud.
 KnownScene known_scene(const Recipe& recipe, const CaseData& data, const CaseId& id, const Scene& told);
 
-/// Models the tubes of a run's case, with the known scene of its recipe. The model's seed depends only on
-/// (settings.model.seed, set, number of tubes, case). Throws InputError as model_tubes() does, naming the
-/// case's cloud.
+/// The seed of a case's downsampling, which depends only on (settings.model.seed, set, number of tubes,
+/// case).
+std::uint64_t model_seed(const ExperimentSettings& settings, const CaseId& id);
+
+/// Models the tubes of a run's case by a method that is built in, with the known scene of its recipe. Throws
+/// InputError as model_tubes() does, naming the case's cloud.
 Model model_case(const KnownScene& known, const CaseData& data, const RunId& run,
                  const ExperimentSettings& settings);
 
 /// How good a model is.
 struct ModelScore {
-  Score labels;  ///< of the points in Model::filtered only (paper, Section 5)
-  TubesScore tubes;
+  Score labels;                     ///< of the points in Model::filtered only (paper, Section 5)
+  std::optional<TubesScore> tubes;  ///< none if only labels were given
 };
 
 /// Throws InputError naming the case's cloud if the filter left no point on a tube.
-ModelScore score_model(const CaseData& data, const Model& model);
+ModelScore score_model(const CaseData& data, const Model& model, bool has_tubes = true);
 
 /// The points of Model::filtered with their true and their modelled labels.
 struct ComparedClouds {
   PointCloud truth;
-  PointCloud labels;  ///< with the label of the true tube that each modelled tube is assigned to; unassigned
-                      ///< ones get labels after the largest true one
+  PointCloud labels;  ///< with the label of the true tube that each label is assigned to; unassigned ones get
+                      ///< labels after the largest true one
 };
 ComparedClouds compared_clouds(const CaseData& data, const Model& model);
 

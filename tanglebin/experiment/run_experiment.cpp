@@ -1,7 +1,6 @@
 #include "tanglebin/experiment/run_experiment.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -17,17 +16,17 @@
 namespace tanglebin {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
 
 using Lines = std::vector<std::string>;
 
-// The journal line for a case with the lines that lines_of(run) gives for each of its runs.
+// The journal line for a case with the lines that lines_of(entry, run) gives for each of its runs.
 template <typename LinesOf>
 std::string lines_of_runs(const ExperimentSettings& settings, const CaseId& id, const LinesOf& lines_of) {
   Lines all;
-  for (const Method method : settings.methods) {
+  for (const Entry& entry : settings.methods) {
     for (const double ratio : settings.ratios) {
-      for (std::string& line : lines_of(RunId{method, id, ratio})) all.push_back(std::move(line));
+      for (std::string& line : lines_of(entry, RunId{entry.name, id, ratio})) all.push_back(std::move(line));
     }
   }
   return journal_line(all);
@@ -36,27 +35,35 @@ std::string lines_of_runs(const ExperimentSettings& settings, const CaseId& id, 
 std::string failed_case(const Dataset& dataset, const ExperimentSettings& settings, const CaseId& id,
                         const RunFailure& failure) {
   const std::string sha256 = case_sha256(dataset, id);
-  return lines_of_runs(settings, id,
-                       [&](const RunId& run) { return Lines{failure_json(run, sha256, failure)}; });
+  return lines_of_runs(settings, id, [&](const Entry& /*all*/, const RunId& run) {
+    return Lines{failure_json(run, sha256, failure)};
+  });
 }
+
+/// Where a run of an experiment writes.
+struct Place {
+  fs::path results;
+  fs::path scratch;  ///< for files that do not stay
+  int jobs;
+};
 
 // Runs everything for one case; returns its journal line.
 std::string run_case(const Dataset& dataset, const ExperimentSettings& settings, const CaseId& id,
-                     const std::filesystem::path& directory) {
+                     const Place& place) {
   const CaseData data = read_case(dataset, id);
   if (std::ranges::none_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; })) {
     return failed_case(dataset, settings, id, {FailureOf::scene, "no point of the cloud is on a tube"});
   }
   const std::string sha256 = case_sha256(dataset, id);
   const Recipe recipe = recipe_of(dataset, id);
-  return lines_of_runs(settings, id, [&](const RunId& run) -> Lines {
+  return lines_of_runs(settings, id, [&](const Entry& entry, const RunId& run) -> Lines {
     try {
       const KnownScene known = known_scene(recipe, data, id, settings.scene);
-      const Clock::time_point start = Clock::now();
-      const Model model = model_case(known, data, run, settings);
-      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      if (settings.keep_models) keep_model(directory, run, data.cloud, model);
-      return {result_json(run, sha256, model, score_model(data, model)), times_json(run, model, seconds)};
+      const Modelled modelled = model_by(entry, known, data, run, settings, place.scratch);
+      if (settings.keep_models) keep_model(place.results, run, data.cloud, modelled.model);
+      Lines lines{result_json(run, sha256, modelled, score_model(data, modelled.model, modelled.has_tubes))};
+      if (modelled.seconds) lines.push_back(times_json(run, modelled, circumstances(place.jobs)));
+      return lines;
     } catch (const InputError& error) {
       return {failure_json(run, sha256, {FailureOf::method, complaint_of(error)})};
     }
@@ -64,14 +71,19 @@ std::string run_case(const Dataset& dataset, const ExperimentSettings& settings,
 }
 
 // Whether the models of a finished case were kept; a run that failed has none.
-bool has_models(const std::filesystem::path& directory, const FinishedRuns& finished,
-                const ExperimentSettings& settings, const CaseId& id) {
-  return std::ranges::all_of(settings.methods, [&](Method method) {
-    return std::ranges::all_of(settings.ratios, [&](double ratio) {
-      const RunId run{method, id, ratio};
-      return finished.results.at(run).failure || has_model(directory, run);
-    });
-  });
+bool has_models(const fs::path& directory, const FinishedRuns& finished, const RunGrid& grid,
+                const CaseId& id) {
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const RunId run = grid.run(i, id);
+    if (!finished.is_failed(run) && !has_model(directory, run)) return false;
+  }
+  return true;
+}
+
+FinishedRuns finished_runs(const fs::path& directory, const RunGrid& grid) {
+  FinishedRuns finished(grid);
+  finished.add(directory);
+  return finished;
 }
 
 }  // namespace
@@ -79,22 +91,26 @@ bool has_models(const std::filesystem::path& directory, const FinishedRuns& fini
 ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSettings& settings,
                                  const std::vector<CaseId>& wanted, const std::filesystem::path& directory,
                                  int jobs, const RunObserver& observer) {
-  for (const Method method : settings.methods) expect_available(method);
+  expect_names(settings.methods);
+  for (const Entry& entry : settings.methods) {
+    if (const auto* method = std::get_if<Method>(&entry.what)) expect_available(*method);
+  }
   expect_free(directory, dataset, settings);
   expect_clouds(dataset);
   make_directories(directory);
   const Journal journal(directory);
   claim(directory, dataset, settings);
+  const RunGrid grid = grid_of(settings);
   const auto fold_journal = [&](const FinishedRuns& finished) {
-    write_results(directory, dataset, settings, finished);
+    write_results(directory, dataset, settings, finished, journal.staging());
     journal.clear();
   };
-  FinishedRuns before = finished_runs(directory);
-  before.forget_changed_cases(dataset);
+  FinishedRuns before = finished_runs(directory, grid);
+  before.forget_changed(dataset, settings);
   fold_journal(before);
   std::vector<CaseId> missing;
   for (const CaseId& id : wanted) {
-    if (!before.has(id, settings) || (settings.keep_models && !has_models(directory, before, settings, id)))
+    if (!before.has(id) || (settings.keep_models && !has_models(directory, before, grid, id)))
       missing.push_back(id);
   }
   ExperimentSummary summary;
@@ -119,18 +135,19 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
     observer.ended({id, 0, 0, failure.reason}, summary.progress);
   };
   observer.begun(missing);
+  const Place place{directory, journal.staging(), jobs};
   try {
     run_in_workers(jobs, missing.size(),
-                   [&](std::size_t task) { return run_case(dataset, settings, missing[task], directory); },
+                   [&](std::size_t task) { return run_case(dataset, settings, missing[task], place); },
                    {.done = record,
                     .failed = give_up,
                     .tick = [&] { observer.progress(summary.progress); },
                     .stopping = observer.stopping});
   } catch (...) {
-    fold_journal(finished_runs(directory));
+    fold_journal(finished_runs(directory, grid));
     throw;
   }
-  fold_journal(finished_runs(directory));
+  fold_journal(finished_runs(directory, grid));
   return summary;
 }
 

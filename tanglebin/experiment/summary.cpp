@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <set>
 
 namespace tanglebin {
 namespace {
@@ -23,46 +21,51 @@ double ratio_to_show(const std::vector<double>& ratios) {
   });
 }
 
-std::vector<MeanMicroRecall> mean_micro_recalls(const std::vector<RunResult>& results, double ratio) {
-  std::vector<MeanMicroRecall> means;
-  for (const RunResult& result : results) {
-    if (result.run.ratio != ratio || is_unscored(result)) continue;
-    const Method method = result.run.method;
-    const CaseId& id = result.run.scene;
-    auto mean = std::ranges::find_if(means, [&](const MeanMicroRecall& other) {
-      return other.method == method && other.set == id.set && other.tubes == id.tubes;
-    });
-    if (mean == means.end()) mean = means.insert(mean, {method, id.set, id.tubes, 0, 0, 0.0});
-    ++mean->cases;
-    if (result.failure) ++mean->failed;
-    mean->mean += (result.micro_recall - mean->mean) / static_cast<double>(mean->cases);
+void ResultsSummary::add(const RunResult& result) {
+  const auto& [method, id, ratio] = result.run;
+  if (is_unscored(result)) {
+    unscored_.insert(id);
+    return;
   }
-  return means;
-}
-
-FailureCounts count_failures(const std::vector<RunResult>& results) {
-  FailureCounts counts;
-  std::set<CaseId> unscored;
-  for (const RunResult& result : results) {
-    if (is_unscored(result)) {
-      unscored.insert(result.run.scene);
-    } else if (result.failure) {
-      ++counts.failed_runs;
-    }
-  }
-  counts.cases_unscored = unscored.size();
-  return counts;
-}
-
-std::vector<Example> examples(const std::vector<RunResult>& results, Method method, double ratio) {
-  std::vector<RunResult> runs;
-  std::ranges::copy_if(results, std::back_inserter(runs), [&](const RunResult& result) {
-    return result.run.method == method && result.run.ratio == ratio && !result.failure;
+  if (result.failure) ++failed_runs_;
+  if (ratio != ratio_) return;
+  auto mean = std::ranges::find_if(means_, [&result](const MeanMicroRecall& other) {
+    return other.method == result.run.method && other.set == result.run.scene.set &&
+           other.tubes == result.run.scene.tubes;
   });
+  if (mean == means_.end()) mean = means_.insert(mean, {method, id.set, id.tubes, 0, 0, 0.0});
+  ++mean->cases;
+  if (result.failure) ++mean->failed;
+  mean->mean += (result.micro_recall - mean->mean) / static_cast<double>(mean->cases);
+  if (!result.failure) scored_[method].push_back({result.micro_recall, id});
+}
+
+FailureCounts ResultsSummary::failures() const {
+  return {failed_runs_, unscored_.size()};
+}
+
+std::vector<Example> ResultsSummary::examples(const std::string& method) const {
+  std::vector<ScoredCase> runs = scores(method);
   if (runs.empty()) return {};
-  std::ranges::stable_sort(runs, {}, &RunResult::micro_recall);
-  const auto best = std::ranges::lower_bound(runs, runs.back().micro_recall, {}, &RunResult::micro_recall);
-  return {{"best", *best}, {"median", runs[(runs.size() - 1) / 2]}, {"worst", runs.front()}};
+  std::ranges::stable_sort(runs, {}, &ScoredCase::micro_recall);
+  const auto example = [](const char* rank, const ScoredCase& run) {
+    return Example{rank, run.scene, run.micro_recall};
+  };
+  const auto best = std::ranges::lower_bound(runs, runs.back().micro_recall, {}, &ScoredCase::micro_recall);
+  return {example("best", *best), example("median", runs[(runs.size() - 1) / 2]),
+          example("worst", runs.front())};
+}
+
+const std::vector<ScoredCase>& ResultsSummary::scores(const std::string& method) const {
+  static const std::vector<ScoredCase> none;
+  const auto found = scored_.find(method);
+  return found == scored_.end() ? none : found->second;
+}
+
+ResultsSummary summary_of(const std::filesystem::path& directory, const std::vector<double>& ratios) {
+  ResultsSummary summary(ratio_to_show(ratios));
+  for_each_result(directory, [&](const RunResult& result, const JsonRecord&) { summary.add(result); });
+  return summary;
 }
 
 }  // namespace tanglebin

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +19,7 @@ double ratio_to_show(const std::vector<double>& ratios);
 
 /// The mean over the cases with the same method, set and number of tubes.
 struct MeanMicroRecall {
-  Method method;
+  std::string method;
   std::string set;
   int tubes;
   std::size_t cases;
@@ -24,24 +27,57 @@ struct MeanMicroRecall {
   double mean;
 };
 
-/// The means at one ratio, in the order of the results. Cases without a visible tube do not count.
-std::vector<MeanMicroRecall> mean_micro_recalls(const std::vector<RunResult>& results, double ratio);
-
 /// How many runs have no score, at all ratios.
 struct FailureCounts {
   std::size_t failed_runs = 0;     ///< that could not be modelled
   std::size_t cases_unscored = 0;  ///< without a visible tube
 };
-FailureCounts count_failures(const std::vector<RunResult>& results);
 
 /// A run chosen to represent its method.
 struct Example {
   std::string rank;  ///< "best", "median" or "worst"
-  RunResult result;
+  CaseId scene;
+  double micro_recall;
 };
 
-/// The runs with the highest, median and lowest micro-recall of a method at one ratio: the first of several,
-/// the lower of two medians. Empty if there are no such runs. Runs without a score do not count.
-std::vector<Example> examples(const std::vector<RunResult>& results, Method method, double ratio);
+/// The score of a case.
+struct ScoredCase {
+  double micro_recall;
+  CaseId scene;
+};
+
+/// What results say at one ratio. Of each run there, it keeps a number and the case.
+class ResultsSummary {
+public:
+  explicit ResultsSummary(double ratio) : ratio_(ratio) {}
+
+  /// Adds the next result, in the order of the results.
+  void add(const RunResult& result);
+
+  double ratio() const { return ratio_; }
+
+  /// The means at the ratio, in the order of the results. Cases without a visible tube do not count.
+  const std::vector<MeanMicroRecall>& means() const { return means_; }
+
+  /// At all ratios.
+  FailureCounts failures() const;
+
+  /// The runs with the highest, median and lowest micro-recall of a method at the ratio: the first of
+  /// several, the lower of two medians. Empty if there are no such runs. Runs without a score do not count.
+  std::vector<Example> examples(const std::string& method) const;
+
+  /// The scores of a method at the ratio, in the order of the results. Runs without a score are left out.
+  const std::vector<ScoredCase>& scores(const std::string& method) const;
+
+private:
+  double ratio_;
+  std::vector<MeanMicroRecall> means_{};
+  std::size_t failed_runs_ = 0;
+  std::set<CaseId> unscored_{};
+  std::map<std::string, std::vector<ScoredCase>> scored_{};
+};
+
+/// The summary of a results directory at the ratio to show of these. Throws as for_each_result() does.
+ResultsSummary summary_of(const std::filesystem::path& directory, const std::vector<double>& ratios);
 
 }  // namespace tanglebin

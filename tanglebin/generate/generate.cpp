@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/generate/bar.hpp"
 
 namespace tanglebin {
 namespace {
@@ -45,8 +46,17 @@ void draw_segment(Rng& rng, const SegmentSpec& segment, int& next_id, Tube& tube
   }
 }
 
+Tube empty_tube(const TubeSpec& spec, int id) {
+  return {.id = id,
+          .radius = spec.radius,
+          .mass = spec.mass,
+          .nodes = {},
+          .edges = {},
+          .flat_ends = spec.flat_ends};
+}
+
 Tube draw_once(Rng& rng, const TubeSpec& spec, int id) {
-  Tube tube{.id = id, .radius = spec.radius, .mass = spec.mass, .nodes = {}, .edges = {}};
+  Tube tube = empty_tube(spec, id);
   tube.nodes.push_back({1, Eigen::Vector3d::Zero()});
   // The named nodes are one more than the segments, and the published files leave the id after them free.
   int next_id = static_cast<int>(spec.segments.size()) + 3;
@@ -85,6 +95,18 @@ bool is_local_minimum(const Tube& tube, const Edge& a, const Edge& b, const Segm
   return true;
 }
 
+// In any direction, like the first cylinder of a chain, and turned about it by any angle.
+Tube draw_bar(Rng& rng, const TubeSpec& spec, int id) {
+  Tube bar = straight_up_bar(spec, id);
+  const double phi = uniform_real(rng, 0, 2 * std::numbers::pi);
+  const double theta = uniform_real(rng, 0, std::numbers::pi);
+  const double roll = uniform_real(rng, 0, 2 * std::numbers::pi);
+  transform(bar, Eigen::Isometry3d(rotation_from_z(direction(theta, phi)) *
+                                   Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ())));
+  bar.mass = mass_of(bar, spec);
+  return bar;
+}
+
 }  // namespace
 
 std::vector<double> draw_lengths(Rng& rng, int cylinders, double total, double shortest) {
@@ -119,7 +141,22 @@ std::vector<Eigen::Vector3d> draw_endpoints(Rng& rng, const std::vector<double>&
   return endpoints;
 }
 
+Tube straight_up_bar(const TubeSpec& spec, int id) {
+  Tube bar = empty_tube(spec, id);
+  const std::vector<Eigen::Vector3d> line = centre_line(spec.pieces);
+  constexpr int first_inner_id = 4;  // as in the paper's chains
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const int order = static_cast<int>(i);
+    bar.nodes.push_back({first_inner_id + order - 1, line[i]});
+    if (i > 0) bar.edges.push_back({i - 1, i, order});
+  }
+  bar.nodes.front().id = 1;
+  bar.nodes.back().id = 2;
+  return bar;
+}
+
 Tube draw_tube(Rng& rng, const TubeSpec& spec, int id) {
+  if (!spec.pieces.empty()) return draw_bar(rng, spec, id);
   for (int draw = 0; draw < max_draws; ++draw) {
     Tube tube = draw_once(rng, spec, id);
     if (passes_through_itself(tube)) continue;

@@ -20,8 +20,12 @@ std::vector<double> draw_lengths(Rng& rng, int cylinders, double total, double s
 std::vector<Eigen::Vector3d> draw_endpoints(Rng& rng, const std::vector<double>& lengths, double bend_min,
                                             double bend_max);
 
+/// The bar that a spec with pieces describes, with node 1 at the origin and its centre line as centre_line()
+/// has it; its mass is the spec's, 0 with a density.
+Tube straight_up_bar(const TubeSpec& spec, int id);
+
 /// Algorithm 1 for one tube: a tube with node 1 at the origin. Drawn again while it passes through itself;
-/// throws InputError after 1000 such draws. `spec` must be valid.
+/// throws InputError after 1000 such draws. A bar is only turned. `spec` must be valid.
 Tube draw_tube(Rng& rng, const TubeSpec& spec, int id);
 
 /// Does the tube's surface meet itself anywhere but at the bends of its own centre line? True where the

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/generate/bar.hpp"
+#include "tanglebin/generate/generate.hpp"
 #include "tanglebin/geometry/mass_properties.hpp"
 
 namespace tanglebin {
@@ -65,6 +67,12 @@ void validate_bends(const SegmentSpec& segment, const std::string& where) {
          fmt::format("at most bend_max, {:.6g}°", degrees(segment.bend_max)));
 }
 
+// Where the tube goes round a corner closer to a flat end, the sphere at that corner would stand out of it.
+void expect_straight_end(double length, double radius, const std::string& field) {
+  expect(length >= radius, field, fmt::format("{}", length),
+         fmt::format("at least the radius, {} m, because the ends are flat", radius));
+}
+
 // Segments may be drawn in their order only where each starts at a node that is there already and ends at a
 // new one: then they make a tree.
 void validate_nodes(const SegmentSpec& segment, const std::string& where, std::set<int>& reached, int nodes) {
@@ -77,15 +85,7 @@ void validate_nodes(const SegmentSpec& segment, const std::string& where, std::s
          fmt::format("node {}, which closes a loop", segment.to), "a node that no earlier segment reaches");
 }
 
-}  // namespace
-
-double mass_of(const Tube& tube, const TubeSpec& spec) {
-  return spec.density == 0 ? spec.mass : spec.density * mass_properties(tube).volume;
-}
-
-void validate(const TubeSpec& spec, const std::string& where) {
-  expect_positive(spec.radius, where + ".radius");
-  validate_mass(spec, where);
+void validate_segments(const TubeSpec& spec, const std::string& where) {
   expect(!spec.segments.empty(), where + ".segment", "none", "at least one segment");
   const int nodes = static_cast<int>(spec.segments.size()) + 1;
   std::set<int> reached{1};
@@ -95,7 +95,66 @@ void validate(const TubeSpec& spec, const std::string& where) {
     validate_nodes(spec.segments[i], place, reached, nodes);
     validate_sizes(spec.segments[i], place);
     validate_bends(spec.segments[i], place);
+    if (spec.flat_ends)
+      expect_straight_end(spec.segments[i].cylinder_length_min, spec.radius, place + "cylinder_length_min");
   }
+}
+
+void validate_arc(const Piece& arc, double radius, const std::string& where) {
+  expect_angle(arc.bend, where + ".bend");
+  expect(std::isfinite(arc.twist), where + ".twist", fmt::format("{}", arc.twist), "a finite angle");
+  expect(std::isfinite(arc.bend_radius) && arc.bend_radius >= radius, where + ".bend_radius",
+         fmt::format("{}", arc.bend_radius), fmt::format("at least the bar's radius, {} m", radius));
+}
+
+void validate_pieces(const TubeSpec& spec, const std::string& where) {
+  double cylinders = 0;
+  for (std::size_t i = 0; i < spec.pieces.size(); ++i) {
+    const Piece& piece = spec.pieces[i];
+    const std::string place = fmt::format("{}.piece[{}]", where, i);
+    if (piece.length != 0 || piece.bend == 0) {
+      expect_positive(piece.length, place + ".length");
+      expect(piece.bend == 0, place + ".bend", fmt::format("{:.6g}°", degrees(piece.bend)),
+             "0, because the piece is straight");
+    } else {
+      validate_arc(piece, spec.radius, place);
+    }
+    cylinders += chords_of(piece);
+    expect(cylinders <= most_cylinders, place, fmt::format("{} cylinders up to here", cylinders),
+           fmt::format("at most {} in a bar", most_cylinders));
+  }
+  if (spec.flat_ends) {
+    expect_straight_end(spec.pieces.front().length, spec.radius, where + ".piece[0].length");
+    expect_straight_end(spec.pieces.back().length, spec.radius,
+                        fmt::format("{}.piece[{}].length", where, spec.pieces.size() - 1));
+  }
+  expect(!passes_through_itself(straight_up_bar(spec, 1)), where + ".piece",
+         "a bar that passes through itself", "smaller bends or longer pieces");
+}
+
+}  // namespace
+
+double mass_of(const Tube& tube, const TubeSpec& spec) {
+  return spec.density == 0 ? spec.mass : spec.density * mass_properties(tube).volume;
+}
+
+std::vector<Segment> segments_of(const TubeSpec& spec) {
+  if (spec.pieces.empty()) return {spec.segments.begin(), spec.segments.end()};
+  Segment bar{.from = 1, .to = 2, .length = 0};
+  for (const Piece& piece : spec.pieces) bar.length += length_of(piece);
+  return {bar};
+}
+
+void validate(const TubeSpec& spec, const std::string& where) {
+  expect_positive(spec.radius, where + ".radius");
+  validate_mass(spec, where);
+  if (spec.pieces.empty()) {
+    validate_segments(spec, where);
+    return;
+  }
+  expect(spec.segments.empty(), where + ".segment", fmt::format("{} segments", spec.segments.size()),
+         "none, because there are pieces");
+  validate_pieces(spec, where);
 }
 
 }  // namespace tanglebin

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <tuple>
 
@@ -26,6 +27,13 @@ void require_pixels(int count, const char* field) {
 void require_focal_length(double pixels, const char* field) {
   require(std::isfinite(pixels) && pixels > 0, field, std::to_string(pixels),
           "a finite positive number of pixels");
+}
+
+/// Moved about the world's y axis, towards +x.
+Camera tilted(Camera camera, double degrees) {
+  const double angle = degrees * std::numbers::pi / 180;
+  camera.pose = Eigen::Isometry3d(Eigen::AngleAxisd(angle, Vector3d::UnitY())) * camera.pose;
+  return camera;
 }
 
 void require_coordinate(double pixels, const char* field) {
@@ -76,8 +84,9 @@ Camera camera_preset(std::string_view name) {
   }
   if (name == "zivid-one-plus-l") return downward_camera(width, height, 2730, position);
   if (name == "kinect-v1") return downward_camera(640, 480, 585, Vector3d(0, 0, 1));
+  if (name == "phoxi") return tilted(downward_camera(2064, 1544, 2430, Vector3d(0, 0, 1.2)), 11.9);
   throw InputError({.file = "", .line = 0, .field = "scanner"}, excerpt(name),
-                   "paper, gaussian, zivid-one-plus-l or kinect-v1");
+                   "paper, gaussian, zivid-one-plus-l, kinect-v1 or phoxi");
 }
 
 Ray ray_through(const Camera& camera, double u, double v) {

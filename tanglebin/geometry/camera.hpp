@@ -49,7 +49,8 @@ double focal_length_from_hfov(int width, double hfov);
 /// Pose and intrinsics of the preset scanners; sensor_preset() gives their errors. "paper", "gaussian": 1920
 /// x 1200, 1.22 rad, 2 m above the floor (Section 6.1 and the published worlds). "zivid-one-plus-l": same
 /// position and size, focal length 2730 px (38.7° x 24.8°). "kinect-v1": 640 x 480, focal length 585 px
-/// (57.4° x 44.6°), 1 m above the floor. Throws InputError for any other name.
+/// (57.4° x 44.6°), 1 m above the floor. "phoxi": 2064 x 1544, focal length 2430 px (46.0° x 35.3°), 1.2 m
+/// from the floor's centre, tilted by 11.9° towards +x. Throws InputError for any other name.
 Camera camera_preset(std::string_view name);
 
 /// The ray from the camera's centre through image coordinates (u, v).

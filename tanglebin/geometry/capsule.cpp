@@ -4,6 +4,17 @@
 
 namespace tanglebin {
 
+Capsule rounded(const Capsule& capsule) {
+  const double length = (capsule.b - capsule.a).norm();
+  const int flat_ends = (capsule.flat_at_a ? 1 : 0) + (capsule.flat_at_b ? 1 : 0);
+  if (flat_ends == 0 || length == 0) return {capsule.a, capsule.b, capsule.radius};
+  const Eigen::Vector3d inward =
+      std::min(capsule.radius, length / flat_ends) / length * (capsule.b - capsule.a);
+  return {.a = capsule.flat_at_a ? capsule.a + inward : capsule.a,
+          .b = capsule.flat_at_b ? capsule.b - inward : capsule.b,
+          .radius = capsule.radius};
+}
+
 double nearest_on_axis(const Capsule& capsule, const Eigen::Vector3d& point) {
   const Eigen::Vector3d axis = capsule.b - capsule.a;
   const double square = axis.squaredNorm();

@@ -21,6 +21,25 @@ Interval inside_sphere(const Vector3d& start, const Vector3d& direction, double 
   return {middle - half_chord, middle + half_chord};
 }
 
+/// Keeps the part of `inside`, on the line start + t direction, that is on the inner side of the plane
+/// through a flat end. The origin is the capsule's centre; `half_axis` points to that end. Tells where the
+/// plane cuts.
+void cut(Interval& inside, double& face, const Vector3d& start, const Vector3d& direction,
+         const Vector3d& half_axis) {
+  const double slope = direction.dot(half_axis);
+  const double beyond = start.dot(half_axis) - half_axis.squaredNorm();
+  if (slope == 0) {
+    if (beyond > 0) inside = {};
+    return;
+  }
+  face = -beyond / slope;
+  if (slope > 0) {
+    inside.high = std::min(inside.high, face);
+  } else {
+    inside.low = std::max(inside.low, face);
+  }
+}
+
 }  // namespace
 
 std::optional<SurfaceHit> ray_capsule(const Ray& ray, const Capsule& capsule) {
@@ -64,9 +83,15 @@ std::optional<SurfaceHit> ray_capsule(const Ray& ray, const Capsule& capsule) {
     const Interval second = inside_end(1);
     t = {std::min(first.low, second.low), std::max(first.high, second.high)};
   }
+  double face_a = infinity;
+  double face_b = infinity;
+  if (capsule.flat_at_a) cut(t, face_a, start, d, -half_axis);
+  if (capsule.flat_at_b) cut(t, face_b, start, d, half_axis);
   if (t.low > t.high || t.high + shift < 0) return std::nullopt;
 
   const double hit = t.low + shift >= 0 ? t.low : t.high;
+  if (hit == face_a) return SurfaceHit{hit + shift, -half_axis.normalized()};
+  if (hit == face_b) return SurfaceHit{hit + shift, half_axis.normalized()};
   const Vector3d point = start + hit * d;
   const double along = h2 > 0 ? std::clamp(point.dot(half_axis) / h2, -1.0, 1.0) : 0.0;
   return SurfaceHit{hit + shift, (point - along * half_axis) / radius};

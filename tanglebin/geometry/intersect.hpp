@@ -16,8 +16,9 @@ struct SurfaceHit {
 
 /// The first crossing of a capsule's surface: where the ray enters the solid or, if it starts inside, where
 /// it leaves. None if the ray misses, or if the capsule is behind it. A capsule whose ends coincide is a
-/// sphere. Closed form, double precision: for a capsule of a few centimetres at a distance of metres, the
-/// point found is within 1e-12 m of the surface, even at grazing incidence and along the axis.
+/// sphere. A flat end is a disc. Closed form, double precision: for a capsule of a few centimetres at a
+/// distance of metres, the point found is within 1e-12 m of the surface, even at grazing incidence and along
+/// the axis.
 std::optional<SurfaceHit> ray_capsule(const Ray& ray, const Capsule& capsule);
 
 /// The angle between a surface's normal and the direction back along the ray, rad.

@@ -5,8 +5,10 @@
 namespace tanglebin {
 
 EdgeFrame frame_of(const Tube& tube, const Edge& edge) {
-  const Eigen::Vector3d& from = tube.nodes[edge.from].position;
-  const Eigen::Vector3d& to = tube.nodes[edge.to].position;
+  return frame_between(tube.nodes[edge.from].position, tube.nodes[edge.to].position);
+}
+
+EdgeFrame frame_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d along = to - from;
   return {(from + to) / 2, rotation_from_z(along.normalized()), along.norm()};
 }
@@ -21,14 +23,28 @@ Eigen::Quaterniond rotation_from_z(const Eigen::Vector3d& direction) {
       Eigen::AngleAxisd(angle, sine > 0 ? Eigen::Vector3d(axis / sine) : Eigen::Vector3d::UnitX()));
 }
 
-Capsule capsule(const Tube& tube, const Edge& edge) {
-  return {tube.nodes[edge.from].position, tube.nodes[edge.to].position, tube.radius};
+std::vector<bool> flat_nodes(const Tube& tube) {
+  std::vector<int> edges_at(tube.nodes.size());
+  for (const Edge& edge : tube.edges) {
+    ++edges_at[edge.from];
+    ++edges_at[edge.to];
+  }
+  std::vector<bool> flat(tube.nodes.size());
+  for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = tube.flat_ends && edges_at[i] == 1;
+  return flat;
 }
 
 std::vector<Capsule> capsules(const Tube& tube) {
   std::vector<Capsule> result;
   result.reserve(tube.edges.size());
-  for (const Edge& edge : tube.edges) result.push_back(capsule(tube, edge));
+  const std::vector<bool> flat = flat_nodes(tube);
+  for (const Edge& edge : tube.edges) {
+    result.push_back({.a = tube.nodes[edge.from].position,
+                      .b = tube.nodes[edge.to].position,
+                      .radius = tube.radius,
+                      .flat_at_a = flat[edge.from],
+                      .flat_at_b = flat[edge.to]});
+  }
   return result;
 }
 

@@ -22,8 +22,8 @@ struct Edge {
 };
 
 /// A tube is a tree of nodes (spheres) and edges (cylinders) of one radius, so its surface is that of a union
-/// of capsules (paper, Section 3, with a sphere at every node as in the published data). Modelled tubes may
-/// have flat ends; all that simulates or scans tubes takes their ends as round.
+/// of capsules (paper, Section 3, with a sphere at every node as in the published data). With flat ends, the
+/// capsules that end at an outermost node are cut there.
 struct Tube {
   int id = 1;           ///< 1, 2, …; also the label of its points
   double radius = 0.0;  ///< m
@@ -40,14 +40,15 @@ struct EdgeFrame {
   double length;                ///< m, the distance of the two nodes
 };
 EdgeFrame frame_of(const Tube& tube, const Edge& edge);
+EdgeFrame frame_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// The shortest rotation that turns +z onto a unit vector; about x by π for −z.
 Eigen::Quaterniond rotation_from_z(const Eigen::Vector3d& direction);
 
-/// The capsule of one edge.
-Capsule capsule(const Tube& tube, const Edge& edge);
+/// For each node, whether the tube is cut flat there.
+std::vector<bool> flat_nodes(const Tube& tube);
 
-/// The capsules of all edges, in their order.
+/// The capsules of all edges, in their order, cut where the tube is.
 std::vector<Capsule> capsules(const Tube& tube);
 
 /// The sum of the edges' lengths, m.

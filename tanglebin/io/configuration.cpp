@@ -34,6 +34,8 @@ constexpr double length_tolerance = 1e-4;                         // m
 constexpr double angle_tolerance = 0.5 * std::numbers::pi / 180;  // rad
 constexpr double unit_tolerance = 1e-4;                           // of a quaternion's norm
 
+constexpr std::string_view tube_fields = "id nodes edges ends";
+constexpr std::string_view flat_ends = "flat";
 constexpr std::string_view node_fields = "id x y z radius";
 constexpr std::string_view edge_fields = "name n1 n2 order radius cx cy cz qw qx qy qz length";
 
@@ -45,12 +47,17 @@ public:
   /// Advances to the next line, which must have the fields listed in `layout`.
   void expect_line(const std::string& what, std::string_view layout) {
     const std::size_t count = words_of(layout).size();
-    const std::string expected = fmt::format("{} {}: {}", count, count == 1 ? "field" : "fields", layout);
-    if (!next_line()) fail(what, "the end of the file", expected);
-    if (fields_.size() == count) return;
-    if (fields_.empty()) fail(what, "an empty line", expected);
-    fail(what, fmt::format("{} fields from {} on", fields_.size(), excerpt(fields_[0])), expected);
+    expect_fields(what, count, count,
+                  fmt::format("{} {}: {}", count, count == 1 ? "field" : "fields", layout));
   }
+
+  /// The same, but the last of them may be missing.
+  void expect_line_with_option(const std::string& what, std::string_view layout) {
+    const std::size_t count = words_of(layout).size();
+    expect_fields(what, count - 1, count, fmt::format("{} or {} fields: {}", count - 1, count, layout));
+  }
+
+  bool has(std::size_t index) const { return index < fields_.size(); }
 
   /// Expects only empty lines after the last tube.
   void expect_end(int tubes) {
@@ -87,6 +94,14 @@ public:
   }
 
 private:
+  void expect_fields(const std::string& what, std::size_t least, std::size_t most,
+                     const std::string& expected) {
+    if (!next_line()) fail(what, "the end of the file", expected);
+    if (fields_.size() >= least && fields_.size() <= most) return;
+    if (fields_.empty()) fail(what, "an empty line", expected);
+    fail(what, fmt::format("{} fields from {} on", fields_.size(), excerpt(fields_[0])), expected);
+  }
+
   bool next_line() {
     ++line_;
     fields_.clear();
@@ -110,7 +125,7 @@ public:
 
   /// `ids` holds the ids of earlier tubes; adds this tube's.
   Tube read(const std::string& what, std::set<int>& ids) {
-    lines_.expect_line(what, "id nodes edges");
+    lines_.expect_line_with_option(what, tube_fields);
     tube_.id = lines_.whole_number(0, "tube id", 1);
     if (!ids.insert(tube_.id).second) fail_again("tube id", tube_.id);
     const int nodes = lines_.whole_number(1, "number of nodes", 2);
@@ -118,6 +133,9 @@ public:
     if (edges != nodes - 1)
       lines_.fail("number of edges", fmt::format("{}", edges),
                   fmt::format("{}, one less than the tree's {} nodes", nodes - 1, nodes));
+    if (lines_.has(3) && lines_.text(3) != flat_ends)
+      lines_.fail("ends", excerpt(lines_.text(3)), fmt::format("{}, or nothing for round ends", flat_ends));
+    tube_.flat_ends = lines_.has(3);
     // Reserves no memory, because the count may be wrong.
     for (int i = 1; i <= nodes; ++i) read_node(fmt::format("node {} of {}", i, nodes));
     boost::disjoint_sets_with_storage<> components(tube_.nodes.size());
@@ -217,7 +235,9 @@ private:
 
 void write_tube(fmt::memory_buffer& text, const Tube& tube) {
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "{} {} {}\n", tube.id, tube.nodes.size(), tube.edges.size());
+  fmt::format_to(out, "{} {} {}", tube.id, tube.nodes.size(), tube.edges.size());
+  if (tube.flat_ends) fmt::format_to(out, " {}", flat_ends);
+  fmt::format_to(out, "\n");
   for (const Node& node : tube.nodes) {
     const Eigen::Vector3d& p = node.position;
     fmt::format_to(out, "{} {} {} {} {}\n", node.id, p.x(), p.y(), p.z(), tube.radius);

@@ -133,6 +133,10 @@ std::string label_png(const LabelImage& image) {
   return grey_png(image.width, image.height, image.labels, label_sample);
 }
 
+std::string mask_png(int width, int height, const std::vector<std::uint8_t>& values) {
+  return encode({width, height, 8, PNG_COLOR_TYPE_GRAY, values});
+}
+
 std::string color_png(int width, int height, const std::vector<Color>& pixels) {
   RawImage image{width, height, 8, PNG_COLOR_TYPE_RGB, {}};
   image.bytes.reserve(3 * pixels.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ std::string depth_png(const DepthImage& image);
 /// The PNG file of a label image: 16-bit grey, with 0 = bin, 1..n = tubes, and nothing_in_label_image for
 /// null. Throws InputError for a label above 65534.
 std::string label_png(const LabelImage& image);
+
+/// The PNG file of a mask: 8-bit grey, width * height values, row by row.
+std::string mask_png(int width, int height, const std::vector<std::uint8_t>& values);
 
 /// The PNG file of a colour picture: 8 bits per channel, width * height pixels, row by row.
 std::string color_png(int width, int height, const std::vector<Color>& pixels);

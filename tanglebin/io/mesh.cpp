@@ -27,24 +27,25 @@ struct Ring {
 };
 
 // The rings from one tip to the other, both of which have no radius.
-std::vector<Ring> profile(const Capsule& capsule, bool starts_flat, bool ends_flat) {
+std::vector<Ring> profile(const Capsule& capsule) {
   const double radius = capsule.radius;
   const double length = (capsule.b - capsule.a).norm();
   std::vector<Ring> rings;
-  for (int i = starts_flat ? rings_of_cap : 1; i <= rings_of_cap; ++i) {
+  for (int i = capsule.flat_at_a ? rings_of_cap : 1; i <= rings_of_cap; ++i) {
     const double angle = std::numbers::pi / 2 * i / rings_of_cap;
     rings.push_back({-radius * std::cos(angle), radius * std::sin(angle)});
   }
-  for (int i = rings_of_cap; i >= (ends_flat ? rings_of_cap : 1); --i) {
+  for (int i = rings_of_cap; i >= (capsule.flat_at_b ? rings_of_cap : 1); --i) {
     const double angle = std::numbers::pi / 2 * i / rings_of_cap;
     rings.push_back({length + radius * std::cos(angle), radius * std::sin(angle)});
   }
-  rings.insert(rings.begin(), {starts_flat ? 0 : -radius, 0});
-  rings.push_back({length + (ends_flat ? 0 : radius), 0});
+  rings.insert(rings.begin(), {capsule.flat_at_a ? 0 : -radius, 0});
+  rings.push_back({length + (capsule.flat_at_b ? 0 : radius), 0});
   return rings;
 }
 
-void add_part(TubeMesh& mesh, const Capsule& capsule, const std::vector<Ring>& rings) {
+void add_part(TubeMesh& mesh, const Capsule& capsule) {
+  const std::vector<Ring> rings = profile(capsule);
   const Eigen::Vector3d axis = capsule.b - capsule.a;
   const Eigen::Quaterniond rotation =
       rotation_from_z(axis.norm() > 0 ? axis.normalized() : Eigen::Vector3d::UnitZ());
@@ -94,29 +95,19 @@ std::size_t total(const std::vector<TubeMesh>& meshes, Items items) {
 }  // namespace
 
 TubeMesh mesh_of(const Tube& tube) {
-  std::vector<int> degrees(tube.nodes.size());
-  for (const Edge& edge : tube.edges) {
-    ++degrees[edge.from];
-    ++degrees[edge.to];
-  }
   TubeMesh mesh{.label = tube.id, .vertices = {}, .triangles = {}};
-  for (const Edge& edge : tube.edges) {
-    const Capsule part = capsule(tube, edge);
-    add_part(
-        mesh, part,
-        profile(part, tube.flat_ends && degrees[edge.from] == 1, tube.flat_ends && degrees[edge.to] == 1));
-  }
+  for (const Capsule& capsule : capsules(tube)) add_part(mesh, capsule);
   return mesh;
 }
 
-void write_mesh_ply(std::ostream& out, const std::vector<TubeMesh>& meshes) {
+void write_mesh_ply(std::ostream& out, const std::vector<TubeMesh>& meshes, std::string_view unit_and_frame) {
   std::int32_t largest = 0;
   for (const TubeMesh& mesh : meshes) largest = std::max(largest, mesh.label);
   const std::vector<Color> colors = label_colors(largest);
   std::string ply = fmt::format(
       "ply\n"
       "format binary_little_endian 1.0\n"
-      "comment Tanglebin: tubes, metres, world frame\n"
+      "comment Tanglebin: tubes, {}\n"
       "element vertex {}\n"
       "property float x\n"
       "property float y\n"
@@ -127,7 +118,7 @@ void write_mesh_ply(std::ostream& out, const std::vector<TubeMesh>& meshes) {
       "element face {}\n"
       "property list uchar uint vertex_indices\n"
       "end_header\n",
-      total(meshes, &TubeMesh::vertices), total(meshes, &TubeMesh::triangles));
+      unit_and_frame, total(meshes, &TubeMesh::vertices), total(meshes, &TubeMesh::triangles));
   for (const TubeMesh& mesh : meshes) {
     for (const Eigen::Vector3f& vertex : mesh.vertices) {
       for (const float coordinate : {vertex.x(), vertex.y(), vertex.z()}) put(ply, coordinate);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
+#include <string_view>
 #include <vector>
 
 #include "tanglebin/geometry/tube.hpp"
@@ -24,8 +25,9 @@ struct TubeMesh {
 TubeMesh mesh_of(const Tube& tube);
 
 /// Writes meshes as binary little-endian PLY: vertices with the colours of the labels, and triangles. The
-/// caller checks the stream.
-void write_mesh_ply(std::ostream& out, const std::vector<TubeMesh>& meshes);
+/// caller checks the stream. The file's comment says their unit and frame.
+void write_mesh_ply(std::ostream& out, const std::vector<TubeMesh>& meshes,
+                    std::string_view unit_and_frame = "metres, world frame");
 
 /// Writes meshes as Wavefront OBJ: an object tube_1, tube_2, … for each.
 void write_mesh_obj(std::ostream& out, const std::vector<TubeMesh>& meshes);

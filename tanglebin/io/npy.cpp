@@ -54,7 +54,7 @@ private:
     const std::string key = quoted("the name of an entry in quotes");
     expect(":");
     if (key == "descr") {
-      set(dictionary.descr, key, quoted("the type of all values: '<f4', '<f8' or '<u2'"));
+      set(dictionary.descr, key, quoted("the type of all values, such as '<f4'"));
     } else if (key == "fortran_order") {
       set(dictionary.fortran_order, key, boolean());
     } else if (key == "shape") {
@@ -185,11 +185,46 @@ std::string read_dictionary(CloudInput& input) {
   return read_text(input, size);
 }
 
+Dictionary read_header(CloudInput& input) {
+  return DictionaryParser(read_dictionary(input), input.file()).parse();
+}
+
+// ---- what labels may be
+
+template <typename Integer>
+std::vector<std::int64_t> read_integers(CloudInput& input, std::size_t count) {
+  std::vector<std::int64_t> values;
+  std::array<Integer, 4096> block;
+  while (values.size() < count) {
+    const std::size_t wanted = std::min(block.size(), count - values.size());
+    const std::size_t bytes =
+        input.read(reinterpret_cast<std::byte*>(block.data()), wanted * sizeof(Integer));
+    if (bytes < wanted * sizeof(Integer))
+      throw InputError(input.place_in_file(),
+                       fmt::format("{} labels", values.size() + bytes / sizeof(Integer)),
+                       fmt::format("{}, as the header says", count));
+    // NOLINTNEXTLINE(bugprone-signed-char-misuse): a label of one byte is a number
+    values.insert(values.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(wanted));
+  }
+  return values;
+}
+
+std::vector<std::int64_t> read_integers(CloudInput& input, const std::string& descr, std::size_t count) {
+  if (descr == "<i4") return read_integers<std::int32_t>(input, count);
+  if (descr == "<i8") return read_integers<std::int64_t>(input, count);
+  if (descr == "<i2") return read_integers<std::int16_t>(input, count);
+  if (descr == "|i1") return read_integers<std::int8_t>(input, count);
+  if (descr == "<u4") return read_integers<std::uint32_t>(input, count);
+  if (descr == "<u2") return read_integers<std::uint16_t>(input, count);
+  if (descr == "|u1") return read_integers<std::uint8_t>(input, count);
+  throw InputError(input.place_in_file("descr"), excerpt(descr),
+                   "integers, little-endian; convert them: numpy.save(file, labels.astype('<i4'))");
+}
+
 }  // namespace
 
 NpyHeader read_npy_header(CloudInput& input) {
-  const std::string text = read_dictionary(input);
-  const Dictionary dictionary = DictionaryParser(text, input.file()).parse();
+  const Dictionary dictionary = read_header(input);
   const NpyType type = type_of(input, required(input, dictionary.descr, "descr"));
   if (required(input, dictionary.fortran_order, "fortran_order"))
     throw InputError(input.place_in_file("fortran_order"), "columns one after the other (Fortran order)",
@@ -197,6 +232,18 @@ NpyHeader read_npy_header(CloudInput& input) {
   const std::vector<std::size_t>& shape = required(input, dictionary.shape, "shape");
   check_shape(input, shape);
   return {type, static_cast<int>(shape[1]), static_cast<int>(shape[0])};
+}
+
+std::vector<std::int64_t> read_npy_integers(CloudInput& input) {
+  const Dictionary dictionary = read_header(input);
+  const std::vector<std::size_t>& shape = required(input, dictionary.shape, "shape");
+  if (shape.size() != 1)
+    throw InputError(input.place_in_file("shape"), fmt::format("({})", fmt::join(shape, ", ")),
+                     "(points,), one label for each");
+  std::vector<std::int64_t> values =
+      read_integers(input, required(input, dictionary.descr, "descr"), shape[0]);
+  if (!input.at_end()) throw InputError(input.place_in_file(), "more bytes after the last label");
+  return values;
 }
 
 }  // namespace tanglebin

@@ -13,6 +13,12 @@
 namespace tanglebin {
 namespace {
 
+constexpr std::string_view weights = "axis.link.weights.";
+
+std::string name_of_weight(LinkKind kind, std::size_t feature) {
+  return fmt::format("{}{}.{}", weights, name_of(kind), feature_name(kind, feature));
+}
+
 // To add a parameter, add a line here.
 template <typename Settings, typename Visit>
 void for_each_parameter(Settings& settings, Visit visit) {
@@ -56,6 +62,10 @@ void for_each_parameter(Settings& settings, Visit visit) {
   visit("axis.link.junction_prior", settings.axis.link.junction_prior);
   visit("axis.link.misfit_unit", settings.axis.link.misfit_unit);
   visit("axis.link.missing_unit", settings.axis.link.missing_unit);
+  for (const LinkKind kind : link_kinds) {
+    for (std::size_t i = 0; i < link_features; ++i)
+      visit(name_of_weight(kind, i).c_str(), settings.axis.link.weights.of(kind)[i]);
+  }
   visit("axis.fit.tolerance", settings.axis.fit.tolerance);
   visit("axis.fit.residual_max", settings.axis.fit.residual_max);
   visit("axis.fit.points_max", settings.axis.fit.points_max);
@@ -87,17 +97,18 @@ void for_each_parameter(Settings& settings, Visit visit) {
 
 constexpr std::string_view list_of_parameters = "docs/algorithm.md";
 
-void set(double& parameter, double value, const std::string& option) {
-  if (!std::isfinite(value) || value < 0)
-    throw InputError({"", 0, option}, fmt::format("{}", value), "a number that is not negative");
+void set(double& parameter, double value, bool may_be_negative, const std::string& name) {
+  if (!std::isfinite(value) || (value < 0 && !may_be_negative))
+    throw InputError({"", 0, name}, fmt::format("{}", value),
+                     may_be_negative ? "a finite number" : "a number that is not negative");
   parameter = value;
 }
 
 template <std::integral Count>
-void set(Count& parameter, double value, const std::string& option) {
+void set(Count& parameter, double value, bool /*may_be_negative*/, const std::string& name) {
   constexpr double most = std::numeric_limits<int>::max();
   if (!(value >= 1 && value <= most && value == std::floor(value)))
-    throw InputError({"", 0, option}, fmt::format("{}", value), "a whole number, 1 or more");
+    throw InputError({"", 0, name}, fmt::format("{}", value), "a whole number, 1 or more");
   parameter = static_cast<Count>(value);
 }
 
@@ -117,22 +128,37 @@ std::map<std::string, double> changed_parameters(const ModelSettings& settings) 
   return values;
 }
 
-void set_parameter(ModelSettings& settings, std::string_view assignment, const std::string& option) {
-  const std::size_t middle = assignment.find('=');
-  if (middle == std::string_view::npos)
-    throw InputError({"", 0, option}, excerpt(assignment), "NAME=VALUE, such as axis.vote.floor_margin=0.4");
-  const std::string_view name = assignment.substr(0, middle);
-  const auto value = to_number<double>(assignment.substr(middle + 1));
-  if (!value) throw InputError({"", 0, option}, excerpt(assignment.substr(middle + 1)), "a number");
+void set_parameter(ModelSettings& settings, std::string_view name, double value) {
   bool is_known = false;
   for_each_parameter(settings, [&](const char* known, auto& parameter) {
     if (name != known) return;
     is_known = true;
-    set(parameter, *value, fmt::format("{} {}", option, name));
+    set(parameter, value, name.starts_with(weights), known);
   });
   if (!is_known)
-    throw InputError({"", 0, option}, excerpt(name),
-                     fmt::format("a parameter listed in {}", list_of_parameters));
+    throw InputError({"", 0, ""}, excerpt(name), fmt::format("a parameter listed in {}", list_of_parameters));
+}
+
+void set_parameter(ModelSettings& settings, std::string_view assignment, const std::string& option) {
+  const std::size_t middle = assignment.find('=');
+  if (middle == std::string_view::npos)
+    throw InputError({"", 0, option}, excerpt(assignment), "NAME=VALUE, such as axis.vote.floor_margin=0.4");
+  const auto value = to_number<double>(assignment.substr(middle + 1));
+  if (!value) throw InputError({"", 0, option}, excerpt(assignment.substr(middle + 1)), "a number");
+  try {
+    set_parameter(settings, assignment.substr(0, middle), *value);
+  } catch (const InputError& error) {
+    const std::string& name = error.place().field;
+    throw InputError({"", 0, name.empty() ? option : option + ' ' + name}, error.problem());
+  }
+}
+
+std::map<std::string, double> link_parameters(const LinkWeights& learned) {
+  ModelSettings settings;
+  settings.axis.link.weights = learned;
+  std::map<std::string, double> values = parameters(settings);
+  std::erase_if(values, [](const auto& parameter) { return !parameter.first.starts_with(weights); });
+  return values;
 }
 
 }  // namespace tanglebin

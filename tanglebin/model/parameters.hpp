@@ -14,9 +14,14 @@ std::map<std::string, double> parameters(const ModelSettings& settings);
 /// The parameters that differ from their defaults.
 std::map<std::string, double> changed_parameters(const ModelSettings& settings);
 
-/// Sets a parameter from an assignment such as "axis.vote.floor_margin=0.4". Throws InputError naming
-/// `option` for an unknown name and for an invalid value. Values are finite and not negative; counts are
-/// whole numbers, 1 or more.
+/// Sets a parameter. Throws InputError naming it for an unknown name and for an invalid value. Values are
+/// finite, and not negative unless they are weights; counts are whole numbers, 1 or more.
+void set_parameter(ModelSettings& settings, std::string_view name, double value);
+
+/// The same from an assignment such as "axis.vote.floor_margin=0.4". Errors name `option` too.
 void set_parameter(ModelSettings& settings, std::string_view assignment, const std::string& option);
+
+/// Weights of links as parameters of the axis method.
+std::map<std::string, double> link_parameters(const LinkWeights& learned);
 
 }  // namespace tanglebin

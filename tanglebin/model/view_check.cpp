@@ -137,16 +137,15 @@ private:
 // Around one of the points that were kept. Looks at all points near it.
 PixelUse pixel_use(const PointCloud& cloud, const Vector3f& middle, const KnownScene& known) {
   const Camera& camera = known.camera;
-  const std::optional<PixelPosition> pixel = pixel_of(camera, middle.cast<double>());
-  if (!pixel) return {};
+  const std::optional<SeenPixel> at_middle = seen_pixel(camera, middle.cast<double>());
+  if (!at_middle) return {};
   constexpr int reach = 50;  // pixels
-  PixelDepths depths(*pixel, reach);
-  const double ball = reach * depth_of(camera, middle.cast<double>()) / std::max(camera.fx, camera.fy);
+  PixelDepths depths(at_middle->pixel, reach);
+  const double ball = reach * at_middle->depth / std::max(camera.fx, camera.fy);
   const auto square = static_cast<float>(ball * ball);
   for (const Vector3f& point : cloud.points) {
     if (!((point - middle).squaredNorm() < square)) continue;
-    if (const auto its = pixel_of(camera, point.cast<double>()))
-      depths.add(*its, depth_of(camera, point.cast<double>()));
+    if (const auto seen = seen_pixel(camera, point.cast<double>())) depths.add(seen->pixel, seen->depth);
   }
   return depths.use(std::ranges::min(known.kinds, {}, &TubeKind::radius).radius);
 }
@@ -197,7 +196,7 @@ public:
     const double y = (bin.width + bin.wall) / 2;
     const auto add = [&](double at_x, double at_y) {
       const Vector3d point = support.pose * Vector3d(at_x, at_y, bin.height);
-      if (const auto pixel = pixel_of(camera, point)) at(*pixel).depth = depth_of(camera, point);
+      if (const auto seen = seen_pixel(camera, point)) at(seen->pixel).depth = seen->depth;
     };
     constexpr int steps = 100;
     for (int i = 0; i <= steps; ++i) {
@@ -210,11 +209,11 @@ public:
   }
 
   void see(const Vector3d& point, double tolerance) {
-    const auto pixel = pixel_of(camera_, point);
-    if (!pixel) return;
-    Cell& cell = at(*pixel);
+    const auto seen = seen_pixel(camera_, point);
+    if (!seen) return;
+    Cell& cell = at(seen->pixel);
     if (cell.depth == 0) return;
-    const double beyond = depth_of(camera_, point) - cell.depth;
+    const double beyond = seen->depth - cell.depth;
     (beyond > tolerance ? cell.is_seen_past : beyond < -tolerance ? cell.is_hidden : cell.is_found) = true;
   }
 

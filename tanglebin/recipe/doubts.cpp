@@ -54,7 +54,7 @@ void doubt_camera(const Recipe& recipe, const Camera& camera, const std::string&
 // Bends and ends hardly count.
 double volume(const TubeSpec& spec) {
   double length = 0;
-  for (const SegmentSpec& segment : spec.segments) length += segment.length;
+  for (const Segment& segment : segments_of(spec)) length += segment.length;
   return std::numbers::pi * spec.radius * spec.radius * length;
 }
 

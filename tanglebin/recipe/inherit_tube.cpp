@@ -26,7 +26,9 @@ struct Alternatives {
 };
 
 std::vector<Alternatives> all_alternatives() {
-  return {{keys(mass_fields), keys(density_fields)}, {{"segment"}, keys(segment_fields)}};
+  return {{keys(mass_fields), keys(density_fields)},
+          {{"segment"}, keys(segment_fields)},
+          {{"piece"}, all({{"segment"}, keys(segment_fields)})}};
 }
 
 Keys own_keys(const toml::table& kind) {

@@ -16,9 +16,9 @@ namespace tanglebin {
 namespace {
 
 // The keys whose values are whole numbers, and are drawn as such.
-constexpr std::array<std::string_view, 10> whole_keys{
-    "tubes",          "width",         "height",        "sub_rays", "iterations",
-    "iterations_max", "cylinders_min", "cylinders_max", "from",     "to"};
+constexpr std::array<std::string_view, 12> whole_keys{
+    "tubes",      "width",          "height",        "sub_rays",      "fill", "median",
+    "iterations", "iterations_max", "cylinders_min", "cylinders_max", "from", "to"};
 
 // The other settings of a lens follow from these where they are not given.
 constexpr std::array<std::string_view, 4> leading_lens_keys{"width", "height", "hfov_deg", "focal_length_px"};

@@ -38,7 +38,8 @@ Bin read_bin(const TomlTable& table) {
 }
 
 Keys scanner_keys() {
-  return all({{"preset"}, camera_intrinsics_keys(), camera_pose_keys(), keys(sensor_fields)});
+  return all(
+      {{"preset"}, camera_intrinsics_keys(), camera_pose_keys(), keys(sensor_fields), keys(image_fields)});
 }
 
 Scanner read_scanner(const TomlTable& table) {
@@ -50,6 +51,7 @@ Scanner read_scanner(const TomlTable& table) {
   read_camera_pose(table, camera);
   Sensor sensor = sensor_preset(name);
   read_fields(table, sensor_fields, sensor);
+  read_fields(table, image_fields, sensor);
   return {"", camera, sensor};
 }
 
@@ -79,9 +81,10 @@ void read_scanners(const TomlTable& root, Recipe& recipe) {
 }
 
 OutputSettings read_output(const TomlTable& table) {
-  table.allow(all({keys(cloud_fields), keys(output_fields), keys(property_fields)}));
+  table.allow(all({keys(cloud_fields), keys(output_fields), keys(occlusion_fields), keys(property_fields)}));
   OutputSettings settings;
   read_fields(table, cloud_fields, settings);
+  read_fields(table, occlusion_fields, settings);
   read_fields(table, output_fields, settings);
   read_fields(table, property_fields, settings.properties);
   return settings;
@@ -115,23 +118,67 @@ void read_mass(const TomlTable& table, TubeSpec& spec) {
   if (!(spec.density > 0)) table.fail("density", fmt::format("{}", spec.density), "a positive number");
 }
 
+// A tree.
+std::vector<SegmentSpec> read_segments(const TomlTable& table) {
+  std::vector<SegmentSpec> segments;
+  for (const TomlTable& segment : table.tables("segment")) {
+    segment.allow(all({keys(segment_end_fields), keys(segment_fields)}));
+    segment.require({"from", "to"});
+    segments.push_back(read_segment(segment));
+  }
+  return segments;
+}
+
+Piece read_piece(const TomlTable& table) {
+  table.allow(all({keys(straight_fields), keys(arc_fields)}));
+  Piece piece;
+  read_fields(table, straight_fields, piece);
+  read_fields(table, arc_fields, piece);
+  for (const std::string_view key : keys(arc_fields)) table.allow_one_of({"length", key});
+  if (!table.has("length")) {
+    table.require({"bend_deg", "bend_radius"});
+    if (piece.bend == 0) table.fail("bend_deg", "0", "more than 0; a straight piece has a length");
+  }
+  return piece;
+}
+
+// A bar.
+std::vector<Piece> read_pieces(const TomlTable& table) {
+  std::vector<Piece> pieces;
+  for (const TomlTable& piece : table.tables("piece")) pieces.push_back(read_piece(piece));
+  if (pieces.empty()) table.fail("piece", "none", "at least one piece");
+  return pieces;
+}
+
+// Either all in one way or all in the other.
+void read_shape(const TomlTable& table, TubeSpec& spec) {
+  for (const std::string_view key : keys(segment_fields)) table.allow_one_of({"segment", "piece", key});
+  table.allow_one_of({"segment", "piece"});
+  if (table.has("piece")) {
+    spec.segments.clear();
+    spec.pieces = read_pieces(table);
+  } else if (table.has("segment")) {
+    spec.segments = read_segments(table);
+  } else {
+    spec.segments = {read_segment(table)};
+  }
+}
+
+bool read_flat_ends(const TomlTable& table) {
+  std::string ends = "round";
+  table.get("ends", ends);
+  if (ends != "round" && ends != "flat") table.fail("ends", excerpt(ends), "\"round\" or \"flat\"");
+  return ends == "flat";
+}
+
 TubeSpec read_tube(const TomlTable& table) {
   table.allow(all({{"weight"}, tube_keys()}));
   table.require({"radius"});
   TubeSpec spec;
   read_fields(table, tube_fields, spec);
+  spec.flat_ends = read_flat_ends(table);
   read_mass(table, spec);
-  if (!table.has("segment")) {
-    spec.segments = {read_segment(table)};
-    return spec;
-  }
-  for (const std::string_view key : keys(segment_fields)) table.allow_one_of({"segment", key});
-  spec.segments.clear();
-  for (const TomlTable& segment : table.tables("segment")) {
-    segment.allow(all({keys(segment_end_fields), keys(segment_fields)}));
-    segment.require({"from", "to"});
-    spec.segments.push_back(read_segment(segment));
-  }
+  read_shape(table, spec);
   return spec;
 }
 

@@ -30,6 +30,7 @@ struct OutputSettings {
   bool pcds = false;             ///< pcds/N.pcd, organized
   bool depths = false;           ///< depths/N.png and N.json
   bool labels = false;           ///< labels/N.png
+  bool occlusions = false;       ///< occlusions/N.json: what hides and touches what
   PointProperties properties{};  ///< of the points in plys and pcds
 
   bool operator==(const OutputSettings&) const = default;

@@ -42,6 +42,13 @@ inline constexpr std::tuple sensor_fields{
     Field{"trueness_length", &Sensor::trueness_length},
     Field{"kinect_noise", &Sensor::kinect_noise},
 };
+// Written only where one is on, so that the recipes of earlier versions stay the same byte for byte.
+inline constexpr std::tuple image_fields{
+    Field{"column_correlation", &Sensor::column_correlation},
+    Field{"quantization", &Sensor::quantization},
+    Field{"fill", &Sensor::fill},
+    Field{"median", &Sensor::median},
+};
 inline constexpr std::tuple settle_fields{
     Field{"gravity", &SettleSettings::gravity},
     Field{"friction", &SettleSettings::friction},
@@ -72,6 +79,9 @@ inline constexpr std::tuple output_fields{
     Field{"depths", &OutputSettings::depths},
     Field{"labels", &OutputSettings::labels},
 };
+inline constexpr std::tuple occlusion_fields{
+    Field{"occlusions", &OutputSettings::occlusions},
+};
 inline constexpr std::tuple property_fields{
     Field{"normals", &PointProperties::normals},
     Field{"intensities", &PointProperties::intensities},
@@ -99,6 +109,15 @@ inline constexpr std::tuple segment_fields{
     AngleField{"bend_max_deg", &SegmentSpec::bend_max},
 };
 
+inline constexpr std::tuple straight_fields{
+    Field{"length", &Piece::length},
+};
+inline constexpr std::tuple arc_fields{
+    AngleField{"bend_deg", &Piece::bend},
+    Field{"bend_radius", &Piece::bend_radius},
+    AngleField{"twist_deg", &Piece::twist},
+};
+
 struct EdgesName {
   Edges edges;
   std::string_view name;
@@ -108,7 +127,12 @@ inline constexpr std::array<EdgesName, 3> edges_names{
 
 /// The keys of [tube], and of a [set.tube] but for its weight.
 inline Keys tube_keys() {
-  return all({keys(tube_fields), keys(mass_fields), keys(density_fields), keys(segment_fields), {"segment"}});
+  return all({keys(tube_fields),
+              {"ends"},
+              keys(mass_fields),
+              keys(density_fields),
+              keys(segment_fields),
+              {"segment", "piece"}});
 }
 
 }  // namespace tanglebin

@@ -85,12 +85,16 @@ void validate_fit(const TubeSpec& spec, const Bin& bin, const std::string& where
          fmt::format("a tube {:.6g} m thick", 2 * spec.radius),
          fmt::format("less than the {:.6g} m between the bin's walls", narrowest));
   const double room = longest_axis_inside(bin, spec.radius);
-  for (std::size_t i = 0; i < spec.segments.size(); ++i) {
-    const double longest = longest_straight_piece(spec.segments[i]);
-    const std::string segment = spec.segments.size() == 1 ? where : fmt::format("{}.segment[{}]", where, i);
-    expect(longest <= room, segment + ".length", fmt::format("a straight piece of up to {:.6g} m", longest),
+  const auto expect_room = [&](double longest, const std::string& piece) {
+    expect(longest <= room, piece + ".length", fmt::format("a straight piece of up to {:.6g} m", longest),
            fmt::format("at most {:.6g} m, the longest that fits in the bin", room));
+  };
+  for (std::size_t i = 0; i < spec.segments.size(); ++i) {
+    expect_room(longest_straight_piece(spec.segments[i]),
+                spec.segments.size() == 1 ? where : fmt::format("{}.segment[{}]", where, i));
   }
+  for (std::size_t i = 0; i < spec.pieces.size(); ++i)
+    expect_room(spec.pieces[i].length, fmt::format("{}.piece[{}]", where, i));
 }
 
 void validate_weights(const SetRecipe& set, const std::string& where) {
@@ -145,8 +149,8 @@ void validate_number_of_cases(const std::vector<SetRecipe>& sets) {
 }
 
 // A scanner's folder is beside the folders of the other kinds of files.
-constexpr std::array<std::string_view, 6> folders_of_kinds{
-    "plys", "pcds", "depths", "labels", "tube_configurations", "gazebo_worlds"};
+constexpr std::array<std::string_view, 7> folders_of_kinds{
+    "plys", "pcds", "depths", "labels", "occlusions", "tube_configurations", "gazebo_worlds"};
 
 std::string place_of_scanner(const Recipe& recipe, std::size_t index) {
   return recipe.scanner_name.empty() ? "scanner" : fmt::format("scanner[{}]", index);

@@ -34,8 +34,8 @@ struct Entry {
   const toml::node& value;
 };
 
-constexpr std::array<std::string_view, 7> keys_of_tables{"bin", "scanner", "settle", "output",
-                                                         "set", "tube",    "segment"};
+constexpr std::array<std::string_view, 8> keys_of_tables{"bin", "scanner", "settle",  "output",
+                                                         "set", "tube",    "segment", "piece"};
 
 bool contains(const auto& keys, std::string_view key) {
   return std::ranges::find(keys, key) != keys.end();
@@ -73,7 +73,7 @@ Keys scanner_order(const toml::table& table) {
   const Keys sensor = keys(sensor_fields);
   const bool has_sensor =
       std::ranges::all_of(sensor, [&](std::string_view key) { return table.contains(key); });
-  return has_sensor ? all({camera, sensor}) : camera;
+  return has_sensor ? all({camera, sensor, keys(image_fields)}) : camera;
 }
 
 /// Every section of a recipe's tree.
@@ -92,14 +92,22 @@ std::vector<Section> sections(const toml::table& tree) {
   add_all(root, "bin", "bin", fixed(keys(bin_fields)), nothing);
   add_all(root, "scanner", "scanner", scanner_order, nothing);
   add_all(root, "settle", "settle", fixed(keys(settle_fields)), nothing);
-  add_all(root, "output", "output",
-          fixed(all({keys(cloud_fields), keys(output_fields), keys(property_fields)})), nothing);
-  const Keys tube =
-      all({{"weight"}, keys(tube_fields), keys(mass_fields), keys(density_fields), keys(segment_fields)});
+  add_all(
+      root, "output", "output",
+      fixed(all({keys(cloud_fields), keys(output_fields), keys(occlusion_fields), keys(property_fields)})),
+      nothing);
+  const Keys tube = all({{"weight"},
+                         keys(tube_fields),
+                         {"ends"},
+                         keys(mass_fields),
+                         keys(density_fields),
+                         keys(segment_fields)});
   const Keys segment = all({keys(segment_end_fields), keys(segment_fields)});
   add_all(root, "set", "set", fixed({"name", "tubes", "cases"}), [&](const Section& set) {
     add_all(set, "tube", "set.tube", fixed(tube), [&](const Section& kind) {
       add_all(kind, "segment", "set.tube.segment", fixed(segment), nothing);
+      add_all(kind, "piece", "set.tube.piece", fixed(all({keys(straight_fields), keys(arc_fields)})),
+              nothing);
     });
   });
   return result;

@@ -80,6 +80,12 @@ toml::table table_of(const std::tuple<Fields...>& fields, const Struct& values) 
   return table;
 }
 
+bool alters_the_image(const Sensor& sensor) {
+  const Sensor off;
+  return sensor.column_correlation != off.column_correlation || sensor.quantization != off.quantization ||
+         sensor.fill != off.fill || sensor.median != off.median;
+}
+
 toml::table scanner_table(const Scanner& scanner) {
   const Camera& camera = scanner.camera;
   toml::table table = table_of(camera_size_fields, camera);
@@ -90,22 +96,36 @@ toml::table scanner_table(const Scanner& scanner) {
   table.insert("rotation_matrix", rows_of(camera.pose.linear()));
   // The camera alone says that a scanner is the paper's ideal one.
   if (scanner.sensor != Sensor{}) put_fields(table, sensor_fields, scanner.sensor);
+  if (alters_the_image(scanner.sensor)) put_fields(table, image_fields, scanner.sensor);
   return table;
 }
 
 toml::table output_table(const OutputSettings& output) {
   toml::table table = table_of(output_fields, output);
   if (!output.plys) put_fields(table, cloud_fields, output);
+  if (output.occlusions) put_fields(table, occlusion_fields, output);
   if (output.properties != PointProperties{}) put_fields(table, property_fields, output.properties);
   return table;
 }
 
+toml::array piece_tables(const std::vector<Piece>& pieces) {
+  toml::array tables;
+  for (const Piece& piece : pieces)
+    tables.push_back(piece.bend == 0 ? table_of(straight_fields, piece) : table_of(arc_fields, piece));
+  return tables;
+}
+
 toml::table tube_table(const TubeSpec& spec) {
   toml::table table = table_of(tube_fields, spec);
+  if (spec.flat_ends) table.insert("ends", "flat");
   if (spec.density == 0) {
     put_fields(table, mass_fields, spec);
   } else {
     put_fields(table, density_fields, spec);
+  }
+  if (!spec.pieces.empty()) {
+    table.insert("piece", piece_tables(spec.pieces));
+    return table;
   }
   if (spec.segments.size() == 1) {
     put_fields(table, segment_fields, spec.segments.front());

@@ -72,29 +72,31 @@ std::string facts(const Results& results) {
 // ---- Headline
 // ----------------------------------------------------------------------------------------------
 
-/// "0.912 (set A) and 0.889 (set B)"
+/// "0.912 ± 0.010 (set A) and 0.889 ± 0.013 (set B)"
 std::string recalls_of(const std::vector<RunScore>& scores, const std::string& method) {
   std::vector<std::string> words;
   for (const RunGroup& group : groups_of(scores)) {
     if (group.method != method) continue;
     const auto runs = chosen(scores, [&](const RunScore& score) { return is_of(score, group); });
-    const double mean =
-        summarize(values(runs, [](const RunScore& score) { return score.micro_recall; })).mean;
-    words.push_back(fmt::format("{:.3f} (set {})", mean, group.set));
+    const Summary recall = summarize(values(runs, [](const RunScore& score) { return score.micro_recall; }));
+    words.push_back(fmt::format("{:.3f}{} (set {})", recall.mean,
+                                recall.interval ? fmt::format(" ± {:.3f}", *recall.interval) : "",
+                                group.set));
   }
   return joined(words);
 }
 
 /// " and models a case of set A with 10 tubes in 0.71 s on average (published: 0.85 s)"
-std::string time_of(const std::vector<RunTime>& all, const std::string& method, double ratio, int tubes) {
-  const auto here = chosen(all, [&](const RunTime& time) {
+std::string time_of(const Results& results, const std::string& method, double ratio, int tubes) {
+  const auto here = chosen(results.times, [&](const RunTime& time) {
     return time.run.method == method && time.run.ratio == ratio && tubes_of(time) == tubes;
   });
   if (here.empty()) return "";
   const RunGroup group = groups_of(here).front();
   const auto times = chosen(here, [&](const RunTime& time) { return is_of(time, group); });
   const double mean = summarize(values(times, [](const RunTime& time) { return time.seconds; })).mean;
-  const std::optional<double> published = published_modelling_time(group.set, tubes, ratio);
+  const std::optional<double> published =
+      results.is_papers ? published_modelling_time(group.set, tubes, ratio) : std::nullopt;
   return fmt::format(" and models a case of set {} with {} in {} s on average{}", group.set,
                      counted(static_cast<std::size_t>(tubes), "tube"), seconds_text(mean),
                      published ? fmt::format(" (published: {} s)", seconds_text(published)) : "");
@@ -111,9 +113,9 @@ std::string headline(const Results& results) {
     if (recalls.empty()) continue;
     sentences.push_back(fmt::format("At downsampling ratio {}, method “{}” has a mean micro-recall of {}{}.",
                                     ratio_text(ratio), method, recalls,
-                                    time_of(results.times, method, ratio, shown_tubes(results.scores))));
+                                    time_of(results, method, ratio, shown_tubes(results.scores))));
   }
-  return fmt::format("{}", fmt::join(sentences, " "));
+  return fmt::format("{} ± is half the 95 % confidence interval of the mean.", fmt::join(sentences, " "));
 }
 
 /// How runs without a score count, and why the first of them failed.

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "tanglebin/report/html.hpp"
-#include "tanglebin/report/page_style.hpp"
+#include "tanglebin/report/document.hpp"
+#include "tanglebin/report/embedded.hpp"
 #include "tanglebin/report/plot.hpp"
+#include "tanglebin/report/scene_view.hpp"
+#include "tanglebin/report/script.hpp"
 #include "tanglebin/report/sections.hpp"
 
 namespace tanglebin {
@@ -17,6 +19,8 @@ constexpr const char* contents = R"html(<nav aria-label="Contents">
 <li><a href="#figure-8">Micro-recall by number of tubes</a></li>
 <li><a href="#figure-9">Micro-recall by ratio</a></li>
 <li><a href="#measures">Other measures</a></li>
+<li><a href="#runs">All runs</a></li>
+<li><a href="#scenes">Scenes in 3D</a></li>
 <li><a href="#pictures">Pictures</a></li>
 <li><a href="#repeat">How to reproduce this page</a></li>
 </ul>
@@ -31,26 +35,33 @@ Tables 1 and 2 and the text of its Section 6.2. Sets A and B are compared with t
 </footer>
 )html";
 
-std::string document(const std::string& body_html) {
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n"
-      "<title>Tanglebin report</title>\n<style>{}{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-      page_style, plot_style, body_html);
+std::string head(const Results& results) {
+  return fmt::format("<style>{}{}</style>\n{}", plot_style, embedded::runs_css,
+                     results.scenes.empty() ? "" : scene_style());
+}
+
+/// Only those that have something to do. The table of runs asks the scenes which of them are there.
+std::string scripts(const Results& results) {
+  std::string html = results.scenes.empty() ? "" : scene_scripts();
+  if (!results.scores.empty()) html += script(embedded::chart_js) + script(embedded::runs_js);
+  return html;
 }
 
 }  // namespace
 
 std::string report_page(const Results& results) {
-  return document(overview(results) + contents + "<main>\n" +  //
-                  generation_times(results) +                  // Table 1
-                  modelling_times(results) +                   // Table 2
-                  recall_by_tubes(results) +                   // Figure 8
-                  recall_by_ratio(results) +                   // Figure 9
-                  other_measures(results) +                    //
-                  example_pictures(results) +                  //
-                  how_to_repeat(results) + "</main>\n" + citation);
+  return html_document("Tanglebin report", head(results),
+                       overview(results) + contents + "<main>\n" +  //
+                           generation_times(results) +              // Table 1
+                           modelling_times(results) +               // Table 2
+                           recall_by_tubes(results) +               // Figure 8
+                           recall_by_ratio(results) +               // Figure 9
+                           other_measures(results) +                //
+                           all_runs(results) +                      //
+                           scenes_in_3d(results) +                  //
+                           example_pictures(results) +              //
+                           how_to_repeat(results) + "</main>\n" + (results.is_papers ? citation : "") +
+                           scripts(results));
 }
 
 }  // namespace tanglebin

@@ -6,8 +6,8 @@
 
 namespace tanglebin {
 
-/// The report: a self-contained HTML page, without network access or scripts. Its bytes depend only on the
-/// results. Throws std::runtime_error if gnuplot, which draws the plots, is not installed or fails.
+/// The report: a self-contained HTML page, without network access. Without scripts, its tables, plots and
+/// pictures remain. Its bytes depend only on the results.
 std::string report_page(const Results& results);
 
 }  // namespace tanglebin

@@ -62,9 +62,11 @@ std::string example_pictures(const Results& results) {
     content = paragraph("missing", "The results have no pictures (<code>pictures.jsonl</code>).");
   } else {
     content =
-        paragraph("note",
-                  "The cases with the highest, median and lowest micro-recall: the truth on the left, the "
-                  "method's labels on the right. Each tube or label has a colour; black is null.") +
+        paragraph(
+            "note",
+            "The cases with the highest, median and lowest micro-recall: the truth on the left, the "
+            "method's labels on the right. Each tube or label has a colour. Black is a tube's point without "
+            "a label; grey is not scored, because it is on no tube in truth.") +
         content;
   }
   return section_html("pictures", "Best, median and worst case", content);

@@ -4,55 +4,66 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
-#include <regex>
+#include <numeric>
 #include <set>
 #include <stdexcept>
-#include <string_view>
-#include <system_error>
 
-#include "tanglebin/base/error.hpp"
 #include "tanglebin/report/html.hpp"
-#include "tanglebin/report/process.hpp"
 
 namespace tanglebin {
 namespace {
 
-constexpr int width = 420;
+// ---- Looks
+// --------------------------------------------------------------------------------------------------
 
-/// The number of columns of the key above the plot: two if the names are short enough.
-int key_columns(const Plot& plot) {
-  constexpr std::size_t longest = 18;
-  const auto is_short = [](const PlotSeries& series) { return series.name.size() <= longest; };
-  return std::ranges::all_of(plot.series, is_short) ? 2 : 1;
-}
-
-int height(const Plot& plot) {
-  constexpr int without_key = 270;
-  constexpr int key_line = 18;
-  const int columns = key_columns(plot);
-  return without_key + key_line * ((static_cast<int>(plot.series.size()) + columns - 1) / columns);
-}
-
-/// The look of a series' points. Each differs from all others in colour, shape and dashes. The colours have a
-/// contrast of at least 3 with both white and the dark page.
+/// The look of a series. Each differs from all others in colour, mark and dashes. The colours have a contrast
+/// of at least 3 with both white and the dark page.
 struct Look {
   const char* color;
-  int point;
-  int dashes;
+  const char* mark;  ///< outline around (0, 0)
+  const char* dashes;
 };
-constexpr std::array<Look, 6> looks = {{{"#0072B2", 7, 1},
-                                        {"#D55E00", 5, 2},
-                                        {"#009E73", 9, 4},
-                                        {"#B0629A", 11, 5},
-                                        {"#7A7A7A", 13, 3},
-                                        {"#9C7A00", 7, 2}}};
-constexpr int open_diamond = 12;
+constexpr const char* disc = "M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0z";
+constexpr std::array<Look, 6> looks = {{{"#0072B2", disc, "none"},
+                                        {"#D55E00", "M-3.5,-3.5h7v7h-7z", "7 3"},
+                                        {"#009E73", "M0,-4.5L4.2,3.2H-4.2z", "2 2"},
+                                        {"#B0629A", "M0,4.5L4.2,-3.2H-4.2z", "7 2 2 2"},
+                                        {"#7A7A7A", "M0,-4.8L4.8,0L0,4.8L-4.8,0z", "4 2"},
+                                        {"#9C7A00", disc, "7 3"}}};
+constexpr const char* diamond = "M0,-6L6,0L0,6L-6,0z";
 
-// ---- What the plot spans
-// -------------------------------------------------------------------------------
+const Look& look_of(std::size_t series) {
+  return looks[series % looks.size()];
+}
+
+std::string mark(const PlotSeries& series, const Look& look) {
+  if (series.is_published) {
+    return fmt::format(R"(<path class="mark" d="{}" fill="none" stroke="currentColor" stroke-width="1.6"/>)",
+                       diamond);
+  }
+  return fmt::format(R"(<path class="mark" d="{}" fill="{}"/>)", look.mark, look.color);
+}
+
+// ---- Axes
+// ---------------------------------------------------------------------------------------------------
+
+constexpr double width = 420;
+constexpr double height = 270;
+constexpr double left = 54;
+constexpr double right = 408;
+constexpr double top = 10;
+constexpr double bottom = 222;
+
+/// What part of an axis is shown, and where it has labels.
+struct Axis {
+  double least;
+  double greatest;
+  std::vector<double> ticks;
+
+  double share(double value) const { return (value - least) / (greatest - least); }
+};
 
 std::vector<double> all_x(const Plot& plot) {
   std::set<double> values;
@@ -68,63 +79,95 @@ double least_gap(const std::vector<double>& x) {
   return std::isfinite(gap) ? gap : 1;
 }
 
-/// A multiple of 0.1 below all the data.
-double y_least(const Plot& plot) {
-  double least = plot.y_greatest;
-  for (const PlotSeries& series : plot.series)
-    for (const PlotPoint& point : series.points) least = std::min(least, point.low);
-  return (std::ceil(least * 10 - 1e-9) - 1) / 10;
+/// The multiples of a step from `least` to `greatest`.
+std::vector<double> multiples(double step, double least, double greatest) {
+  constexpr double slack = 1e-9;
+  const auto first = static_cast<int>(std::ceil(least / step - slack));
+  const auto last = static_cast<int>(std::floor(greatest / step + slack));
+  std::vector<double> values;
+  for (int i = first; i <= last; ++i) values.push_back(i * step);
+  return values;
 }
 
-/// The distance between the labels of the vertical axis.
+/// A label at each value if they do not overlap; otherwise at a few round ones.
+std::vector<double> x_ticks(const std::vector<double>& x) {
+  constexpr std::size_t most = 12;
+  if (x.size() <= most) return x;
+  const double range = x.back() - x.front();
+  const double magnitude = std::pow(10, std::floor(std::log10(range)));
+  for (const double step : {0.1, 0.2, 0.5, 1.0}) {
+    std::vector<double> ticks = multiples(step * magnitude, x.front(), x.back());
+    if (ticks.size() <= most) return ticks;
+  }
+  return {x.front(), x.back()};
+}
+
+Axis x_axis(const std::vector<double>& x) {
+  const double gap = least_gap(x);
+  return {.least = x.front() - gap, .greatest = x.back() + gap, .ticks = x_ticks(x)};
+}
+
 double y_step(double range) {
   if (range < 0.35) return 0.05;
   return range < 0.65 ? 0.1 : 0.2;
 }
 
-/// A label at each x if they do not overlap; otherwise gnuplot's choice of round numbers.
-std::string tics(const std::vector<double>& x) {
-  constexpr std::size_t most = 12;
-  if (x.size() > most) return "autofreq";
-  std::string text;
-  for (const double value : x) text += fmt::format("{}{:.12g}", text.empty() ? "(" : ", ", value);
-  return text + ")";
+/// From a multiple of 0.1 below all the data.
+Axis y_axis(const Plot& plot) {
+  double least = plot.y_greatest;
+  for (const PlotSeries& series : plot.series)
+    for (const PlotPoint& point : series.points) least = std::min(least, point.low);
+  least = (std::ceil(least * 10 - 1e-9) - 1) / 10;
+  return {.least = least,
+          .greatest = plot.y_greatest,
+          .ticks = multiples(y_step(plot.y_greatest - least), least, plot.y_greatest)};
 }
 
-// ---- The script
-// -------------------------------------------------------------------------------------------
+/// Where numbers are in the picture, pixels.
+struct Frame {
+  Axis x;
+  Axis y;
 
-/// A gnuplot string. Between single quotes only the quote itself is special; it becomes a typographic quote,
-/// because doubling it, as in gnuplot's manual, ends the string if it comes first.
-std::string quoted(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') {
-      result += "’";
-    } else {
-      result += std::iscntrl(static_cast<unsigned char>(c)) != 0 ? ' ' : c;
-    }
+  double across(double value) const { return std::lerp(left, right, x.share(value)); }
+  double down(double value) const { return std::lerp(bottom, top, y.share(value)); }
+};
+
+std::string line(double x1, double y1, double x2, double y2, const std::string& attributes) {
+  return fmt::format(R"(<line x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" {}/>)", x1, y1, x2, y2,
+                     attributes);
+}
+
+std::string text(double x, double y, const std::string& anchor, const std::string& words) {
+  return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor,
+                     escaped(words));
+}
+
+std::string axes(const Plot& plot, const Frame& frame) {
+  const std::string grid = R"(class="grid")";
+  const std::string solid = R"(stroke="currentColor")";
+  std::string svg;
+  for (const double tick : frame.y.ticks) {
+    const double y = frame.down(tick);
+    svg += line(left, y, right, y, grid) + text(left - 8, y + 4.5, "end", fmt::format("{:.6g}", tick));
   }
-  return result + "'";
+  for (const double tick : frame.x.ticks) {
+    const double x = frame.across(tick);
+    svg +=
+        line(x, bottom, x, bottom + 5, solid) + text(x, bottom + 19, "middle", fmt::format("{:.6g}", tick));
+  }
+  svg += line(left, bottom, right, bottom, solid) + line(left, top, left, bottom, solid);
+  svg += text(std::midpoint(left, right), height - 8, "middle", plot.x_label);
+  const double middle = std::midpoint(top, bottom);
+  return svg +
+         fmt::format(R"svg(<text text-anchor="middle" transform="translate(13 {}) rotate(-90)">{}</text>)svg",
+                     middle, escaped(plot.y_label)) +
+         "\n";
 }
 
-/// A name that fits into the key, because gnuplot omits longer ones. Cuts out the middle: names that begin
-/// alike may end in different methods.
-std::string shortened(const std::string& name) {
-  constexpr std::size_t longest = 36;
-  constexpr std::size_t tail = 11;
-  if (name.size() <= longest) return name;
-  const auto is_inside_character = [&](std::size_t i) {
-    return (static_cast<unsigned char>(name[i]) & 0xC0U) == 0x80;  // UTF-8
-  };
-  std::size_t end_of_head = longest - tail - 1;
-  while (is_inside_character(end_of_head)) --end_of_head;
-  std::size_t begin_of_tail = name.size() - tail;
-  while (is_inside_character(begin_of_tail)) ++begin_of_tail;
-  return name.substr(0, end_of_head) + "…" + name.substr(begin_of_tail);
-}
+// ---- Series
+// -------------------------------------------------------------------------------------------------
 
-/// Horizontal offsets of the series, so that no bar hides another; 0 for the paper's numbers.
+/// How far the series are moved to the side, so that no bar hides another; 0 for the paper's numbers.
 std::vector<double> shifts(const std::vector<PlotSeries>& series, double gap) {
   const auto count = static_cast<double>(std::ranges::count(series, false, &PlotSeries::is_published));
   const double step = gap * std::min(0.2, 0.6 / count);
@@ -137,110 +180,66 @@ std::vector<double> shifts(const std::vector<PlotSeries>& series, double gap) {
   return result;
 }
 
-std::string data_block(std::size_t index, const std::vector<PlotPoint>& points, double shift) {
-  std::string text = fmt::format("$series{} << END\n", index);
-  for (const PlotPoint& point : points) {
-    text += fmt::format("{} {} {} {}\n", point.x + shift, point.y, point.low, point.high);
-  }
-  return text + "END\n";
+/// What a browser shows of a mark under the pointer.
+std::string words_of(const PlotPoint& point, const std::string& name) {
+  const std::string spread =
+      point.low < point.high ? fmt::format(" ({:.3f} to {:.3f})", point.low, point.high) : "";
+  return fmt::format("{}, {:.6g}: {:.3f}{}", name, point.x, point.y, spread);
 }
 
-std::string curves(std::size_t index, const PlotSeries& series) {
-  const Look& look = looks[index % looks.size()];
-  if (series.is_published) {
-    return fmt::format(
-        "$series{} using 1:2 with points pointtype {} pointsize 1.3 linewidth 2 linecolor rgb 'black' "
-        "title {}",
-        index, open_diamond, quoted(shortened(series.name)));
+std::string drawn(const PlotSeries& series, const Look& look, double shift, const Frame& frame) {
+  std::string bars;
+  std::string marks;
+  std::string path;
+  for (const PlotPoint& point : series.points) {
+    const double x = frame.across(point.x + shift);
+    const double y = frame.down(point.y);
+    bars += line(x, frame.down(point.low), x, frame.down(point.high), R"(class="spread")");
+    path += fmt::format("{:.1f},{:.1f} ", x, y);
+    marks += fmt::format(R"svg(<g transform="translate({:.1f} {:.1f})"><title>{}</title>{}</g>)svg", x, y,
+                         escaped(words_of(point, series.name)), mark(series, look));
   }
+  if (series.is_published) return fmt::format("<g class=\"series\">{}</g>\n", marks);
   return fmt::format(
-      "$series{0} using 1:3:(0):($4-$3) with vectors nohead linewidth 5 linecolor rgb '#A0{1}' notitle, "
-      "$series{0} using 1:2 with linespoints pointtype {2} pointsize 0.6 linewidth 1.6 dashtype {3} "
-      "linecolor rgb '{4}' title {5}",
-      index, std::string_view(look.color).substr(1), look.point, look.dashes, look.color,
-      quoted(shortened(series.name)));
+      "<g class=\"series\" stroke=\"{0}\">{1}<polyline points=\"{2}\" stroke-dasharray=\"{3}\"/></g>\n"
+      "<g class=\"series\">{4}</g>\n",
+      look.color, bars, path, look.dashes, marks);
 }
 
-std::string script(const Plot& plot) {
-  const std::vector<double> x = all_x(plot);
-  const double gap = least_gap(x);
-  std::string text = fmt::format(
-      "set encoding utf8\n"
-      "set terminal svg size {},{} dynamic noenhanced font 'sans-serif,13' name {}\n"
-      "set border 3 linewidth 1\n"
-      "set tics nomirror out scale 0.6\n"
-      "set grid ytics linewidth 0.5 linetype 1 linecolor rgb '#A0A0A0'\n"
-      "set key outside top center horizontal maxcols {} samplen 1.5 width -3\n"
-      "set xlabel {}\nset ylabel {}\n"
-      "set xtics {}\nset mxtics 5\n"
-      "set ytics {}\n"
-      "set xrange [{}:{}]\nset yrange [{}:{}]\n",
-      width, height(plot), quoted(plot.id), key_columns(plot), quoted(plot.x_label), quoted(plot.y_label),
-      tics(x), y_step(plot.y_greatest - y_least(plot)), x.front() - gap, x.back() + gap, y_least(plot),
-      plot.y_greatest);
-  const std::vector<double> shift = shifts(plot.series, gap);
-  std::string commands;
-  for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    text += data_block(i, plot.series[i].points, shift[i]);
-    commands += (i == 0 ? "plot " : ", ") + curves(i, plot.series[i]);
+std::string key(const std::vector<PlotSeries>& series) {
+  std::string items;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    items += fmt::format("<li><svg viewBox=\"-7 -7 14 14\" aria-hidden=\"true\">{}</svg>{}</li>\n",
+                         mark(series[i], look_of(i)), escaped(series[i].name));
   }
-  return text + commands + "\n";
-}
-
-// ---- The picture
-// ------------------------------------------------------------------------------------------
-
-std::string draw(const std::string& commands) {
-  ProcessResult gnuplot;
-  try {
-    // Ignores gnuplot settings of the machine and the user.
-    gnuplot = run_process({"gnuplot", "--default-settings"}, commands);
-  } catch (const std::system_error& error) {
-    if (error.code() != std::errc::no_such_file_or_directory) throw;
-    throw SystemError("the plots need gnuplot, which is not installed (Debian: apt install gnuplot-nox)");
-  }
-  if (gnuplot.status != 0 || !gnuplot.out.ends_with("</svg>\n\n")) {
-    throw std::runtime_error(fmt::format("gnuplot failed with status {}: {}", gnuplot.status, gnuplot.err));
-  }
-  return gnuplot.out;
-}
-
-/// Makes ids unique to this picture, because gnuplot uses the same ones in each. Removes the title of each
-/// group, which is only its id but would be shown by browsers. (Ids occur only inside tags: text has no '<'.)
-std::string with_own_ids(const std::string& picture, const std::string& id) {
-  static const std::regex definition(R"re((<[^<>]*\bid=['"])(?!\w+_plot_))re");
-  static const std::regex use(R"re((<[^<>]*\bhref='#))re");
-  static const std::regex title(R"re(<title>[^<]*</title>)re");
-  std::string result = std::regex_replace(picture, title, "");
-  result = std::regex_replace(result, definition, "$1" + id + "-");
-  return std::regex_replace(result, use, "$1" + id + "-");
-}
-
-/// The picture as an element of a page. Replaces gnuplot's header, which contains gnuplot's version.
-std::string as_element(const std::string& picture, const Plot& plot) {
-  const std::size_t content = picture.find("<g id=\"gnuplot_canvas\">");
-  if (content == std::string::npos)
-    throw std::runtime_error("gnuplot wrote an unexpected SVG (not like version 5.4)");
-  return fmt::format(
-      "<svg class=\"plot\" viewBox=\"0 0 {} {}\" xmlns=\"http://www.w3.org/2000/svg\" "
-      "xmlns:xlink=\"http://www.w3.org/1999/xlink\" role=\"img\" aria-label=\"{}\">\n{}",
-      width, height(plot), escaped(plot.text), with_own_ids(picture.substr(content), plot.id));
+  return "<ul class=\"plot-key\">\n" + items + "</ul>\n";
 }
 
 }  // namespace
 
 const char* const plot_style = R"css(
 .plot { display: block; width: 100%; max-width: 34rem; height: auto; }
-.plot text, .plot tspan { font-family: inherit; }
-.plot [fill="black"] { fill: currentColor; }
-.plot [stroke="black"] { stroke: currentColor; }
-.plot [color="black"] { color: inherit; }
+.plot text { font-family: inherit; font-size: 13px; fill: currentColor; }
+.plot .grid { stroke: var(--line); }
+.plot .spread { stroke-width: 5; stroke-opacity: 0.38; }
+.plot polyline { fill: none; stroke-width: 1.6; }
+.plot-key { display: flex; flex-wrap: wrap; gap: 0.1rem 1.2rem; margin: 0.2rem 0 0; padding: 0; list-style: none; font-size: 0.85rem; max-width: 34rem; }
+.plot-key svg { width: 0.9em; height: 0.9em; margin-right: 0.4em; vertical-align: -0.1em; }
 )css";
 
-std::string svg(const Plot& plot) {
-  const auto is_empty = [](const PlotSeries& series) { return series.points.empty(); };
-  if (std::ranges::all_of(plot.series, is_empty)) throw std::invalid_argument("a plot without points");
-  return as_element(draw(script(plot)), plot);
+std::string html(const Plot& plot) {
+  const std::vector<double> x = all_x(plot);
+  if (x.empty()) throw std::invalid_argument("a plot without points");
+  const Frame frame{.x = x_axis(x), .y = y_axis(plot)};
+  const std::vector<double> shift = shifts(plot.series, least_gap(x));
+  std::string series;
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    series += drawn(plot.series[i], look_of(i), shift[i], frame);
+  }
+  return fmt::format(
+             "<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n{}{}</svg>\n", width,
+             height, escaped(plot.text), axes(plot, frame), series) +
+         key(plot.series);
 }
 
 }  // namespace tanglebin

@@ -22,7 +22,6 @@ struct PlotSeries {
 
 /// A line plot.
 struct Plot {
-  std::string id;    ///< a letter, then letters, digits and '_'; unique on the page
   std::string text;  ///< description for readers who cannot see the plot
   std::string x_label;
   std::string y_label;
@@ -30,13 +29,12 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
-/// The plot as an <svg> element for an HTML page, as wide as its container. Its colours are suitable for
-/// colour-blind readers (Okabe and Ito 2008) and for light and dark pages (black becomes the page's
-/// currentColor through plot_style). Drawn by gnuplot; the same plot gives the same bytes. Throws
-/// std::invalid_argument for a plot without points, std::runtime_error if gnuplot is not installed or fails.
-std::string svg(const Plot& plot);
+/// The plot as an <svg> element, as wide as its container, and the list of its series. It needs no script: a
+/// browser shows a mark's numbers under the pointer. Its colours are suitable for colour-blind readers (Okabe
+/// and Ito 2008) and for light and dark pages. Throws std::invalid_argument for a plot without points.
+std::string html(const Plot& plot);
 
-/// The style sheet that svg() relies on.
+/// The style sheet that html() relies on.
 extern const char* const plot_style;
 
 }  // namespace tanglebin

@@ -42,17 +42,22 @@ const Axis ratio_axis = {.label = "Ratio",
                          .x = [](const RunScore& score) { return score.run.ratio; },
                          .published = [](const std::string&, double) { return std::optional<double>(); }};
 
-RecallLine line_of(const std::vector<RunScore>& scores, const RunGroup& group, const Axis& axis,
-                   const std::string& name) {
+/// The paper's number, if the recipe is the paper's.
+std::optional<double> published(const Results& results, const Axis& axis, const std::string& set, double x) {
+  return results.is_papers ? axis.published(set, x) : std::nullopt;
+}
+
+RecallLine line_of(const Results& results, const std::vector<RunScore>& scores, const RunGroup& group,
+                   const Axis& axis) {
   const auto runs = chosen(scores, [&](const RunScore& score) { return is_of(score, group); });
-  RecallLine line{.name = name, .points = {}};
+  RecallLine line{.name = group_text(group, results), .points = {}};
   for (const double x : distinct(runs, axis.x)) {
     const auto here = chosen(runs, [&](const RunScore& score) { return axis.x(score) == x; });
     const auto recall = values(here, [](const RunScore& score) { return score.micro_recall; });
     line.points.push_back({.x = x,
                            .recall = summarize(recall),
                            .failed = count_failed(here),
-                           .published = axis.published(group.set, x)});
+                           .published = published(results, axis, group.set, x)});
   }
   return line;
 }
@@ -61,7 +66,7 @@ std::vector<RecallLine> lines_of(const Results& results, const std::vector<RunSc
                                  const Axis& axis) {
   std::vector<RecallLine> lines;
   for (const RunGroup& group : groups_of(scores)) {
-    lines.push_back(line_of(scores, group, axis, group_text(group, results)));
+    lines.push_back(line_of(results, scores, group, axis));
   }
   return lines;
 }
@@ -84,13 +89,14 @@ PlotSeries measured_series(const RecallLine& line) {
 }
 
 /// The paper's numbers, shared by all methods.
-std::vector<PlotSeries> published_series(const std::vector<RunScore>& scores, const Axis& axis) {
+std::vector<PlotSeries> published_series(const Results& results, const std::vector<RunScore>& scores,
+                                         const Axis& axis) {
   std::vector<PlotSeries> result;
   for (const std::string& set : distinct(scores, [](const RunScore& score) { return score.run.id.set; })) {
     PlotSeries series{.name = fmt::format("Set {}, published", set), .points = {}, .is_published = true};
     const auto of_set = chosen(scores, [&](const RunScore& score) { return score.run.id.set == set; });
     for (const double x : distinct(of_set, axis.x)) {
-      if (const auto y = axis.published(set, x))
+      if (const auto y = published(results, axis, set, x))
         series.points.push_back({.x = x, .y = *y, .low = *y, .high = *y});
     }
     if (!series.points.empty()) result.push_back(series);
@@ -106,10 +112,9 @@ std::string in_words(const RecallLine& line) {
                      last.recall.mean, last.x);
 }
 
-std::string plot_of(const std::vector<RunScore>& scores, const std::vector<RecallLine>& lines,
-                    const Axis& axis, const std::string& id, const std::string& x_label) {
-  Plot plot{.id = id,
-            .text = "Mean micro-recall by " + x_label + ".",
+std::string plot_of(const Results& results, const std::vector<RunScore>& scores,
+                    const std::vector<RecallLine>& lines, const Axis& axis, const std::string& x_label) {
+  Plot plot{.text = "Mean micro-recall by " + x_label + ".",
             .x_label = x_label,
             .y_label = "micro-recall",
             .y_greatest = 1,
@@ -118,18 +123,28 @@ std::string plot_of(const std::vector<RunScore>& scores, const std::vector<Recal
     plot.text += " " + in_words(line) + ".";
     plot.series.push_back(measured_series(line));
   }
-  for (const PlotSeries& series : published_series(scores, axis)) plot.series.push_back(series);
-  return svg(plot);
+  for (const PlotSeries& series : published_series(results, scores, axis)) plot.series.push_back(series);
+  return html(plot);
 }
 
 // ---- Tables
 // --------------------------------------------------------------------------------------------------
 
+/// "Figure 8" where the figure stands beside the paper's.
+std::string figure_name(const Results& results, int number) {
+  return results.is_papers ? fmt::format("Figure {}", number) : "";
+}
+
+/// "<b>Figure 8.</b> "
+std::string leading(const std::string& figure) {
+  return figure.empty() ? "" : fmt::format("<b>{}.</b> ", figure);
+}
+
 HtmlTable table_of(const RecallLine& line, const Axis& axis, const std::string& figure) {
-  HtmlTable table{
-      .caption_html = fmt::format("<b>{}, {}.</b> Micro-recall of the cases.", figure, escaped(line.name)),
-      .columns = {{.heading = axis.label, .group = ""}},
-      .rows = {}};
+  HtmlTable table{.caption_html = fmt::format("<b>{}{}{}.</b> Micro-recall of the cases.", figure,
+                                              figure.empty() ? "" : ", ", escaped(line.name)),
+                  .columns = {{.heading = axis.label, .group = ""}},
+                  .rows = {}};
   for (const char* heading : {"n", "failed", "mean", "SD", "min", "Q1", "median", "Q3", "max"}) {
     table.columns.push_back({.heading = heading, .group = ""});
   }
@@ -183,18 +198,19 @@ std::string recall_by_tubes(const Results& results) {
   const auto scores = chosen(results.scores, [&](const RunScore& score) { return score.run.ratio == ratio; });
   const auto lines = lines_of(results, scores, tubes_axis);
   std::string content;
-  if (std::abs(ratio - figure_8_ratio) > 1e-9) {
+  const std::string figure = figure_name(results, 8);
+  if (results.is_papers && std::abs(ratio - figure_8_ratio) > 1e-9) {
     content += paragraph(
         "note", fmt::format("The ratio of the paper's Figure 8, {}, was not run; this shows the nearest, {}.",
                             figure_8_ratio, ratio_text(ratio)));
   }
   content += plot_figure(
-      plot_of(scores, lines, tubes_axis, "plot_8", "number of tubes"),
-      fmt::format("<b>Figure 8.</b> Micro-recall by number of tubes at downsampling ratio {}. {}{}",
+      plot_of(results, scores, lines, tubes_axis, "number of tubes"),
+      fmt::format("{}Micro-recall by number of tubes at downsampling ratio {}. {}{}", leading(figure),
                   ratio_text(ratio), reading_aid,
                   std::ranges::any_of(lines, has_published) ? " Diamonds: from the paper's text." : ""));
   return section_html("figure-8", heading,
-                      content + figure_8_note(lines) + tables_of(lines, tubes_axis, "Figure 8"));
+                      content + figure_8_note(lines) + tables_of(lines, tubes_axis, figure));
 }
 
 std::string recall_by_ratio(const Results& results) {
@@ -204,19 +220,19 @@ std::string recall_by_ratio(const Results& results) {
   const auto scores = chosen(results.scores, [&](const RunScore& score) { return tubes_of(score) == tubes; });
   const auto lines = lines_of(results, scores, ratio_axis);
   std::string content;
-  if (tubes != figure_9_tubes) {
+  const std::string figure = figure_name(results, 9);
+  if (results.is_papers && tubes != figure_9_tubes) {
     content += paragraph(
         "note", fmt::format("The number of tubes of the paper's Figure 9, {}, was not run; this shows the "
                             "nearest, {}.",
                             figure_9_tubes, tubes));
   }
-  content += plot_figure(
-      plot_of(scores, lines, ratio_axis, "plot_9", "downsampling ratio"),
-      fmt::format(
-          "<b>Figure 9.</b> Micro-recall by downsampling ratio in bins with {}. {} The paper prints no "
-          "numbers of its Figure 9.",
-          counted(static_cast<std::size_t>(tubes), "tube"), reading_aid));
-  return section_html("figure-9", heading, content + tables_of(lines, ratio_axis, "Figure 9"));
+  content +=
+      plot_figure(plot_of(results, scores, lines, ratio_axis, "downsampling ratio"),
+                  fmt::format("{}Micro-recall by downsampling ratio in bins with {}. {}{}", leading(figure),
+                              counted(static_cast<std::size_t>(tubes), "tube"), reading_aid,
+                              results.is_papers ? " The paper prints no numbers of its Figure 9." : ""));
+  return section_html("figure-9", heading, content + tables_of(lines, ratio_axis, figure));
 }
 
 }  // namespace tanglebin

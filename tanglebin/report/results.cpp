@@ -12,6 +12,7 @@
 #include "tanglebin/io/json_record.hpp"
 #include "tanglebin/io/read_file.hpp"
 #include "tanglebin/recipe/case_json.hpp"
+#include "tanglebin/report/papers_recipe.hpp"
 
 namespace tanglebin {
 namespace {
@@ -73,16 +74,18 @@ RunKey run_of(const JsonRecord& record) {
 
 RunScore score_of(const JsonRecord& record) {
   if (const auto failure = failure_in(record)) return {.run = run_of(record), .failure = failure->reason};
-  return {.run = run_of(record),
-          .micro_recall = share_of(record, "micro_recall"),
-          .mean_iou = share_of(record, "mean_iou"),
-          .f1 = share_of(record, "f1"),
-          .panoptic_quality = share_of(record, "panoptic_quality"),
-          .adjusted_rand_index = record.number("adjusted_rand_index", -1, 1),
-          .centre_line_error = record.number_or_null("centre_line_error", 0, infinity),
-          .true_joins = record.whole_number("true_joins"),
-          .joins_found = record.whole_number("joins_found"),
-          .joins_made = record.whole_number("joins_made")};
+  RunScore score{.run = run_of(record),
+                 .micro_recall = share_of(record, "micro_recall"),
+                 .mean_iou = share_of(record, "mean_iou"),
+                 .f1 = share_of(record, "f1"),
+                 .panoptic_quality = share_of(record, "panoptic_quality"),
+                 .adjusted_rand_index = record.number("adjusted_rand_index", -1, 1)};
+  if (!record.has("tubes_found")) return score;  // a method that gives labels only
+  score.centre_line_error = record.number_or_null("centre_line_error", 0, infinity);
+  score.true_joins = record.whole_number("true_joins");
+  score.joins_found = record.whole_number("joins_found");
+  score.joins_made = record.whole_number("joins_made");
+  return score;
 }
 
 bool is_unscored(const JsonRecord& record) {
@@ -140,16 +143,29 @@ std::string read_png(const fs::path& directory, const std::string& name) {
   return std::move(*bytes);
 }
 
+/// A line of scenes.jsonl, as it is. What it says is for the page's script; a line of anything else is an
+/// error here.
+std::string scene_of(const JsonRecord& record) {
+  record.text("name");
+  record.texts("palette");
+  record.object("points").whole_number("count");
+  for (const JsonRecord& labelling : record.objects("labellings")) labelling.text("name");
+  return record.json().dump();
+}
+
 }  // namespace
 
 Results read_results_directory(const fs::path& directory) {
   Results results{.experiment = read_experiment(directory / "experiment.json"),
+                  .is_papers = false,
                   .scores = {},
                   .unscored = {},
                   .times = read_records(directory / "times.jsonl", time_of),
                   .generation = read_generation(directory / "generation.jsonl"),
                   .pictures = read_records(directory / "pictures.jsonl", pictures_of),
+                  .scenes = read_records(directory / "scenes.jsonl", scene_of),
                   .unfinished = fs::exists(directory / "journal.jsonl")};
+  results.is_papers = is_papers_recipe(results.experiment.recipe_sha256, results.experiment.dataset_seed);
   add_scores(directory / "results.jsonl", results);
   for (CasePictures& pictures : results.pictures) {
     pictures.truth_png = read_png(directory, pictures.truth_file);

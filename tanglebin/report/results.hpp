@@ -67,12 +67,14 @@ struct CasePictures {
 /// The contents of a results directory.
 struct Results {
   ExperimentRecord experiment;
+  bool is_papers = false;  ///< the recipe is the paper's, so that its numbers can be compared
   std::vector<RunScore> scores;
   std::vector<RunKey> unscored;  ///< runs of cases without a visible tube
   std::vector<RunTime> times;
   std::vector<TimesRecord> generation;  ///< the dataset's times; empty if unknown
   std::vector<CasePictures> pictures;
-  bool unfinished = false;  ///< a run was interrupted or is in progress
+  std::vector<std::string> scenes;  ///< in 3D, as JSON for scene_figure() (scenes.jsonl)
+  bool unfinished = false;          ///< a run was interrupted or is in progress
 };
 
 /// Reads the output of `tanglebin experiment`. Only experiment.json is required; data of other missing files

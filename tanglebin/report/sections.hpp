@@ -25,6 +25,12 @@ std::string recall_by_ratio(const Results& results);
 /// The measures besides micro-recall, by number of tubes.
 std::string other_measures(const Results& results);
 
+/// Every run, to sort, filter and plot.
+std::string all_runs(const Results& results);
+
+/// The scenes that are there in 3D.
+std::string scenes_in_3d(const Results& results);
+
 /// The best, median and worst cases, with their true and their modelled labels.
 std::string example_pictures(const Results& results);
 

@@ -1,6 +1,7 @@
 #include "tanglebin/report/summary.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -22,15 +23,24 @@ std::optional<double> standard_deviation(const std::vector<double>& sample, doub
   return std::sqrt(squares / static_cast<double>(sample.size() - 1));
 }
 
+std::optional<double> interval(std::size_t count, const std::optional<double>& deviation) {
+  if (!deviation) return std::nullopt;
+  constexpr double upper = 0.975;
+  const boost::math::students_t distribution(static_cast<double>(count - 1));
+  return boost::math::quantile(distribution, upper) * *deviation / std::sqrt(static_cast<double>(count));
+}
+
 }  // namespace
 
 Summary summarize(std::vector<double> sample) {
   if (sample.empty()) throw std::invalid_argument("a summary of no numbers");
   std::ranges::sort(sample);
   const double mean = std::accumulate(sample.begin(), sample.end(), 0.0) / static_cast<double>(sample.size());
+  const std::optional<double> deviation = standard_deviation(sample, mean);
   return {.count = sample.size(),
           .mean = mean,
-          .standard_deviation = standard_deviation(sample, mean),
+          .standard_deviation = deviation,
+          .interval = interval(sample.size(), deviation),
           .least = sample.front(),
           .first_quartile = quantile(sample, 0.25),
           .median = quantile(sample, 0.5),

@@ -11,6 +11,7 @@ struct Summary {
   std::size_t count = 0;
   double mean = 0;
   std::optional<double> standard_deviation;  ///< estimated with n − 1; none for a single number
+  std::optional<double> interval;  ///< half the 95 % confidence interval of the mean (Student's t); the same
   double least = 0;
   double first_quartile = 0;  ///< quartiles interpolate between neighbours (Hyndman and Fan 1996, type 7)
   double median = 0;

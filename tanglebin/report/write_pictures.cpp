@@ -3,13 +3,16 @@
 #include <fmt/core.h>
 
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "tanglebin/experiment/summary.hpp"
+#include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/json_record.hpp"
 #include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/recipe/case_json.hpp"
+#include "tanglebin/report/model_again.hpp"
 #include "tanglebin/report/picture.hpp"
 
 namespace tanglebin {
@@ -24,26 +27,33 @@ void draw(const PointCloud& cloud, const std::filesystem::path& file, const std:
   write_file(file, color_png(picture.width, picture.height, picture.pixels));
 }
 
-// Draws an example and returns its line of pictures.jsonl.
-std::string draw_example(const Example& example, const std::filesystem::path& directory,
-                         const Dataset& dataset, const ExperimentSettings& settings) {
-  const RunId& run = example.result.run;
-  const CaseData data = read_case(dataset, run.scene);
-  const KnownScene known = known_scene(recipe_of(dataset, run.scene), data, run.scene, settings.scene);
-  const ComparedClouds clouds = compared_clouds(data, model_case(known, data, run, settings));
-  const std::string name = fmt::format("pictures/{}-{}", name_of(run.method), example.rank);
+// Gives the points that are not scored, on no tube in truth, the bin's grey.
+void grey_unscored(ComparedClouds& clouds) {
+  for (std::size_t i = 0; i < clouds.truth.labels.size(); ++i) {
+    if (clouds.truth.labels[i] > bin_label) continue;
+    clouds.truth.labels[i] = bin_label;
+    clouds.labels.labels[i] = bin_label;
+  }
+}
+
+// Draws an example of an entry and returns its line of pictures.jsonl.
+std::string draw_example(const Example& example, const RunId& run, const std::filesystem::path& directory,
+                         const CaseData& data, const Model& model) {
+  ComparedClouds clouds = compared_clouds(data, model);
+  grey_unscored(clouds);
+  const std::string name = fmt::format("pictures/{}-{}", run.method, example.rank);
   const std::string truth = name + "-truth.png";
   const std::string labels = name + "-labels.png";
   draw(clouds.truth, directory / truth, data.cloud_file);
   draw(clouds.labels, directory / labels, data.cloud_file);
 
-  Json line{{"method", name_of(run.method)}, {"rank", example.rank}};
+  Json line{{"method", run.method}, {"rank", example.rank}};
   line.update(id_json(run.scene));
   line["ratio"] = run.ratio;
-  line["micro_recall"] = example.result.micro_recall;
+  line["micro_recall"] = example.micro_recall;
   line["truth"] = truth;
   line["labels"] = labels;
-  return line.dump();
+  return line.dump() + '\n';
 }
 
 }  // namespace
@@ -51,11 +61,14 @@ std::string draw_example(const Example& example, const std::filesystem::path& di
 void write_pictures(const std::filesystem::path& directory, const Dataset& dataset,
                     const ExperimentSettings& settings) {
   make_directories(directory / "pictures");
-  const std::vector<RunResult> results = read_results(directory);
+  const ModelAgain model_again(directory, dataset, settings);
+  const ResultsSummary summary = summary_of(directory, settings.ratios);
   std::string lines;
-  for (const Method method : settings.methods) {
-    for (const Example& example : examples(results, method, ratio_to_show(settings.ratios))) {
-      lines += draw_example(example, directory, dataset, settings) + '\n';
+  for (const Entry& entry : settings.methods) {
+    for (const Example& example : summary.examples(entry.name)) {
+      const CaseData data = read_case(dataset, example.scene);
+      if (const std::optional<Model> model = model_again(entry, example.scene, data))
+        lines += draw_example(example, {entry.name, example.scene, summary.ratio()}, directory, data, *model);
     }
   }
   write_file(directory / "pictures.jsonl", lines);

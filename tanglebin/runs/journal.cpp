@@ -105,6 +105,17 @@ std::vector<fs::path> journals_in(const fs::path& directory) {
   return journals;
 }
 
+// The journals are listed after all else: one that comes in between is in neither list, or in both.
+std::set<fs::path> besides_journals(const fs::path& directory) {
+  std::set<fs::path> others;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+    const bool is_hidden = entry.path().filename().string().starts_with('.');
+    if (!is_hidden) others.insert(entry.path());
+  }
+  for (const fs::path& journal : journals_in(directory)) others.erase(journal);
+  return others;
+}
+
 fs::path journal_of(const fs::path& directory, const std::string& name) {
   return directory / (stem_of(name) + std::string(extension));
 }

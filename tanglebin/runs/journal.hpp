@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,10 @@ private:
 
 /// All journals in the directory, locked or not: files with a journal's name that are no symbolic links.
 std::vector<std::filesystem::path> journals_in(const std::filesystem::path& directory);
+
+/// What else is in the directory, but for hidden files. Other runs may begin at the same time: their journals
+/// are never among it.
+std::set<std::filesystem::path> besides_journals(const std::filesystem::path& directory);
 
 /// The file of the journal of this name.
 std::filesystem::path journal_of(const std::filesystem::path& directory, const std::string& name);

@@ -22,8 +22,9 @@ struct BeamShape {
 /// meets the thickened one at the same distance or nearer.
 double radius_for_beam(const Capsule& capsule, const BeamShape& beam);
 
-/// Finds the capsules that the rays of a beam may meet: an Embree scene of capsules, each thickened by the
-/// beam's spread at its distance (radius_for_beam()). ray_capsule() then decides for each ray of the beam.
+/// Finds the capsules that the rays of a beam may meet, their ends taken as round: an Embree scene of
+/// capsules, each thickened by the beam's spread at its distance (radius_for_beam()). ray_capsule() then
+/// decides for each ray of the beam.
 class CapsuleIndex {
 public:
   /// For beams of this shape in any direction. Throws std::runtime_error if Embree fails.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tanglebin/base/counter_random.hpp"
+#include "tanglebin/scan/filters.hpp"
 #include "tanglebin/scan/illumination.hpp"
 #include "tanglebin/scan/range_error.hpp"
 #include "tanglebin/scan/terms.hpp"
@@ -86,7 +87,7 @@ public:
         sensor_(sensor),
         optical_axis_(camera_.pose.linear().col(2)),
         illumination_(surfaces, camera_, sensor, seeds.scene),
-        noise_(sensor, camera_, seeds.scanner),
+        noise_(sensor, camera_, scan_.window, seeds.scanner),
         dropout_(random_of(seeds.scanner, Term::dropout)),
         lateral_(random_of(seeds.scanner, Term::kinect_lateral)) {
     if (sensor.edges != Edges::keep) near_edge_ = near_edges(scan_, sensor);
@@ -264,7 +265,7 @@ private:
     const Ray ray = ray_through(camera_, u, v);
     const double axial_cosine = optical_axis_.dot(ray.direction);
     double range = sight.depth / axial_cosine;
-    range += noise_.draw(number_of(u, v), sight.depth, sight.incidence, sight.snr, axial_cosine);
+    range += noise_.draw(number_of(u, v), i, sight.depth, sight.incidence, sight.snr, axial_cosine);
     if (!trueness_.empty()) range += trueness_[i];
     if (!(range > 0)) {
       scan_.pixels[i] = empty_pixel();
@@ -307,7 +308,10 @@ double ray_margin(const Sensor& sensor) {
 }
 
 Scan measure(const Surfaces& surfaces, Scan ideal, const Sensor& sensor, const ScanSeeds& seeds) {
-  return Measurement(surfaces, std::move(ideal), sensor, seeds).run();
+  Scan measured = Measurement(surfaces, std::move(ideal), sensor, seeds).run();
+  fill_gaps(measured, sensor.fill);
+  if (sensor.quantization > 0) quantize(measured, sensor.quantization);
+  return sensor.median > 0 ? median_filtered(measured, sensor.median) : measured;
 }
 
 }  // namespace tanglebin

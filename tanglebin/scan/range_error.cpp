@@ -37,10 +37,26 @@ std::array<Wave, waves> draw_waves(double length, std::uint64_t seed) {
   return result;
 }
 
+// An autoregressive process of first order down each column, standard normal in every pixel.
+std::vector<double> draw_columns(double correlation, const Camera& camera, const PixelWindow& window,
+                                 std::uint64_t seed) {
+  const CounterRandom random = random_of(seed, Term::range_noise);
+  const double innovation = std::sqrt(1 - correlation * correlation);
+  const auto width = static_cast<std::size_t>(window.width);
+  std::vector<double> values(width * static_cast<std::size_t>(window.height));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::uint64_t row = static_cast<std::uint64_t>(window.top) + i / width;
+    const std::uint64_t column = static_cast<std::uint64_t>(window.left) + i % width;
+    const double white = random.normal(row * static_cast<std::uint64_t>(camera.width) + column);
+    values[i] = i < width ? white : correlation * values[i - width] + innovation * white;
+  }
+  return values;
+}
+
 }  // namespace
 
 double disparity_depth_sigma(const Sensor& sensor, const Camera& camera, double depth, double snr) {
-  return depth * depth / (camera.fx * sensor.baseline) * sensor.disparity_sigma / snr;
+  return depth * depth / (camera.fx * std::abs(sensor.baseline)) * sensor.disparity_sigma / snr;
 }
 
 double kinect_axial_sigma(double depth, double incidence) {
@@ -84,17 +100,19 @@ std::vector<float> trueness_errors(const Sensor& sensor, const PixelWindow& wind
   return errors;
 }
 
-RangeNoise::RangeNoise(const Sensor& sensor, const Camera& camera, std::uint64_t seed)
+RangeNoise::RangeNoise(const Sensor& sensor, const Camera& camera, const PixelWindow& window,
+                       std::uint64_t seed)
     : sensor_(sensor),
       camera_(camera),
-      range_(random_of(seed, Term::range_noise)),
+      range_(sensor.sigma > 0 ? draw_columns(sensor.column_correlation, camera, window, seed)
+                              : std::vector<double>{}),
       disparity_(random_of(seed, Term::disparity)),
       kinect_(random_of(seed, Term::kinect_axial)) {}
 
-double RangeNoise::draw(std::uint64_t pixel, double depth, double incidence, double snr,
+double RangeNoise::draw(std::uint64_t pixel, std::size_t place, double depth, double incidence, double snr,
                         double axial_cosine) const {
   double error = 0;
-  if (sensor_.sigma > 0) error += sensor_.sigma * range_.normal(pixel);
+  if (sensor_.sigma > 0) error += sensor_.sigma * range_[place];
   if (sensor_.disparity_sigma > 0) {
     error += disparity_depth_sigma(sensor_, camera_, depth, snr) / axial_cosine * disparity_.normal(pixel);
   }

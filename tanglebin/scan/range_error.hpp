@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,16 +28,17 @@ std::vector<float> trueness_errors(const Sensor& sensor, const PixelWindow& wind
 /// The random error of a range.
 class RangeNoise {
 public:
-  RangeNoise(const Sensor& sensor, const Camera& camera, std::uint64_t seed);
+  RangeNoise(const Sensor& sensor, const Camera& camera, const PixelWindow& window, std::uint64_t seed);
 
-  /// The error of the pixel with this index, m along its ray. `axial_cosine` is the cosine of the angle
-  /// between the ray and the optical axis.
-  double draw(std::uint64_t pixel, double depth, double incidence, double snr, double axial_cosine) const;
+  /// The error of the pixel with this index in the image and `place` in the window, m along its ray.
+  /// `axial_cosine` is the cosine of the angle between the ray and the optical axis.
+  double draw(std::uint64_t pixel, std::size_t place, double depth, double incidence, double snr,
+              double axial_cosine) const;
 
 private:
   const Sensor& sensor_;
   const Camera& camera_;
-  CounterRandom range_;
+  std::vector<double> range_;  ///< of each pixel of the window, standard normal
   CounterRandom disparity_;
   CounterRandom kinect_;
 };

@@ -14,6 +14,7 @@ namespace {
 constexpr int most_sub_rays = 16;
 constexpr double largest_footprint = 9;          // pixels
 constexpr double largest_error = 1;              // m
+constexpr int largest_median = 31;               // pixels
 constexpr double largest_disparity_sigma = 100;  // pixels
 
 [[noreturn]] void fail(const std::string& key, double value, const std::string& expected) {
@@ -55,6 +56,9 @@ void validate_noise(const Sensor& sensor) {
                  fmt::format("at most {} pixels of noise, or 0 for none", largest_disparity_sigma));
   require_within(sensor.trueness, 0, largest_error, "trueness",
                  fmt::format("at most {} metre of error, or 0 for none", largest_error));
+  if (!(sensor.column_correlation >= 0 && sensor.column_correlation < 1)) {
+    fail("column_correlation", sensor.column_correlation, "a correlation from 0 to below 1");
+  }
   if (!(std::isfinite(sensor.trueness_length) && sensor.trueness_length >= 1)) {
     fail("trueness_length", sensor.trueness_length, "at least 1 pixel; trueness = 0 switches the term off");
   }
@@ -74,9 +78,11 @@ void validate_footprint(const Sensor& sensor) {
 }
 
 void validate_projector(const Sensor& sensor) {
-  require_positive(sensor.baseline, "baseline",
-                   "a positive distance in metres; a scanner without a projector has shadows = false and "
-                   "disparity_sigma = 0");
+  if (!std::isfinite(sensor.baseline) || sensor.baseline == 0) {
+    fail("baseline", sensor.baseline,
+         "a distance in metres other than 0; a scanner without a projector has shadows = false and "
+         "disparity_sigma = 0");
+  }
   require_positive(sensor.working_distance, "working_distance", "a positive distance in metres");
 }
 
@@ -99,11 +105,23 @@ void validate_signal(const Sensor& sensor) {
   require_not_negative(sensor.bin_gloss, "bin_gloss", highlight);
 }
 
+void validate_image(const Sensor& sensor) {
+  require_within(sensor.quantization, 0, largest_error, "quantization",
+                 fmt::format("a step of at most {} metre, or 0 for none", largest_error));
+  if (sensor.fill < 0) fail("fill", sensor.fill, "a number of pixels, or 0 to fill no gaps");
+  const bool is_odd = sensor.median % 2 == 1;
+  if (sensor.median != 0 && (!is_odd || sensor.median < 3 || sensor.median > largest_median)) {
+    fail("median", sensor.median,
+         fmt::format("an odd number of pixels from 3 to {}, or 0 for none", largest_median));
+  }
+}
+
 }  // namespace
 
 bool is_ideal(const Sensor& sensor) {
   return sensor.sigma == 0 && sensor.dropout == 0 && sensor.edges == Edges::keep && !sensor.shadows &&
-         !sensor.signal && sensor.disparity_sigma == 0 && sensor.trueness == 0 && !sensor.kinect_noise;
+         !sensor.signal && sensor.disparity_sigma == 0 && sensor.trueness == 0 && !sensor.kinect_noise &&
+         sensor.quantization == 0 && sensor.fill == 0 && sensor.median == 0;
 }
 
 Sensor sensor_preset(std::string_view name) {
@@ -117,6 +135,22 @@ Sensor sensor_preset(std::string_view name) {
             .trueness = 0.0003};
   }
   if (name == "kinect-v1") return {.kinect_noise = true};
+  if (name == "phoxi") {
+    return {.sigma = 0.0005,
+            .column_correlation = 0.5,
+            .edges = Edges::mix,
+            .footprint = 3,
+            .sub_rays = 4,
+            .edge_jump = 0.002,
+            .shadows = true,
+            .baseline = -0.32,
+            .working_distance = 1.2,
+            .signal = true,
+            .snr_min = 0.06,
+            .quantization = 0.00039,
+            .fill = 5,
+            .median = 5};
+  }
   camera_preset(name);  // throws if the name is unknown
   return {};
 }
@@ -126,6 +160,7 @@ void validate(const Sensor& sensor) {
   validate_footprint(sensor);
   validate_projector(sensor);
   validate_signal(sensor);
+  validate_image(sensor);
 }
 
 }  // namespace tanglebin

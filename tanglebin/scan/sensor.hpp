@@ -17,6 +17,9 @@ struct Sensor {
   // Noise, for any scanner
   double sigma = 0.0;    ///< m, standard deviation of the range, along the ray; 0: off
   double dropout = 0.0;  ///< fraction of pixels lost at random; 0: off
+  /// Of the range noise `sigma` in one pixel with that in the pixel below it; 0: off. It falls off
+  /// geometrically down the column.
+  double column_correlation = 0.0;
 
   // A pixel is an area
   Edges edges = Edges::keep;  ///< keep: off
@@ -27,7 +30,7 @@ struct Sensor {
   // The projector is beside the camera along its x axis, and tilted towards the point of the optical axis at
   // the working distance. Its image is like the camera's.
   bool shadows = false;           ///< points that the projector cannot see are lost
-  double baseline = 0.2;          ///< m, from camera to projector
+  double baseline = 0.2;          ///< m, from camera to projector; negative if that is on the image's left
   double working_distance = 2.0;  ///< m, along the optical axis
 
   // The returned signal
@@ -53,6 +56,11 @@ struct Sensor {
   /// Axial and lateral noise of the Kinect (Nguyen, Izadi and Lovell 2012)
   bool kinect_noise = false;
 
+  // What is done to the image of depths at last
+  double quantization = 0.0;  ///< m, step of the depth along the optical axis; 0: off
+  int fill = 0;               ///< pixels, the longest gap in a row that is filled; 0: off
+  int median = 0;             ///< pixels, side of the window of a median filter, odd; 0: off
+
   bool operator==(const Sensor&) const = default;
 };
 
@@ -61,8 +69,8 @@ bool is_ideal(const Sensor& sensor);
 
 /// The errors of a preset scanner, by the names of camera_preset() (docs/sensor.md). "paper": none.
 /// "gaussian": range noise of 0.5 mm, 2 % drop-outs, edges dropped. "zivid-one-plus-l": all terms of
-/// structured light. "kinect-v1": the noise of Nguyen, Izadi and Lovell. Throws InputError for any other
-/// name.
+/// structured light. "kinect-v1": the noise of Nguyen, Izadi and Lovell. "phoxi": fitted to real scans of
+/// bars. Throws InputError for any other name.
 Sensor sensor_preset(std::string_view name);
 
 /// Throws InputError naming the invalid field under `scanner`, and the remedy.

@@ -48,7 +48,9 @@ std::vector<AlignedBox3d> thickened(std::vector<AlignedBox3d> boxes, const BeamS
 }
 
 std::vector<Capsule> thickened(std::vector<Capsule> capsules, const BeamShape& beam) {
-  for (Capsule& capsule : capsules) capsule.radius = radius_for_beam(capsule, beam) + rounding;
+  for (Capsule& capsule : capsules) {
+    capsule = {.a = capsule.a, .b = capsule.b, .radius = radius_for_beam(capsule, beam) + rounding};
+  }
   return capsules;
 }
 

@@ -51,12 +51,12 @@ std::optional<Piece> place_edge(const CentreLine& line, const Capsule& edge) {
 std::vector<Pieces> edges_on(const std::vector<CentreLine>& truth, const std::vector<Tube>& modelled) {
   std::vector<Pieces> on(truth.size());
   for (std::size_t tube = 0; tube < modelled.size(); ++tube) {
-    for (std::size_t edge = 0; edge < modelled[tube].edges.size(); ++edge) {
-      const Capsule axis = capsule(modelled[tube], modelled[tube].edges[edge]);
+    const std::vector<Capsule> axes = capsules(modelled[tube]);
+    for (std::size_t edge = 0; edge < axes.size(); ++edge) {
       std::optional<Piece> nearest;
       std::size_t line = 0;
       for (std::size_t i = 0; i < truth.size(); ++i) {
-        const std::optional<Piece> piece = place_edge(truth[i], axis);
+        const std::optional<Piece> piece = place_edge(truth[i], axes[edge]);
         if (!piece || (nearest && piece->distance >= nearest->distance)) continue;
         nearest = piece;
         line = i;

@@ -2,33 +2,29 @@
 
 #include <algorithm>
 
+#include "tanglebin/geometry/capsule_box.hpp"
+
 namespace tanglebin {
 namespace {
 
+// The shapes that collide.
+std::vector<Capsule> rounded_capsules(const Tube& tube) {
+  std::vector<Capsule> all = capsules(tube);
+  std::ranges::transform(all, all.begin(), &rounded);
+  return all;
+}
+
 double overlap(const Tube& first, const Tube& second) {
   double deepest = 0;
-  const std::vector<Capsule> others = capsules(second);
-  for (const Capsule& capsule : capsules(first)) {
+  const std::vector<Capsule> others = rounded_capsules(second);
+  for (const Capsule& capsule : rounded_capsules(first)) {
     for (const Capsule& other : others) deepest = std::max(deepest, -surface_distance(capsule, other));
   }
   return deepest;
 }
 
-// The distance of a point from a box is convex along a segment, so a ternary search finds its minimum.
 double distance(const Capsule& capsule, const Eigen::AlignedBox3d& box) {
-  const auto at = [&](double t) { return box.exteriorDistance(capsule.a + t * (capsule.b - capsule.a)); };
-  double low = 0;
-  double high = 1;
-  while (high - low > 1e-9) {
-    const double left = low + (high - low) / 3;
-    const double right = high - (high - low) / 3;
-    if (at(left) <= at(right)) {
-      high = right;
-    } else {
-      low = left;
-    }
-  }
-  return at(low);
+  return box.exteriorDistance(capsule.a + nearest_on_axis(capsule, box) * (capsule.b - capsule.a));
 }
 
 }  // namespace
@@ -49,7 +45,7 @@ double largest_bin_overlap(const std::vector<Tube>& tubes, const Bin& bin) {
   for (const Tube& tube : tubes) {
     for (const Eigen::AlignedBox3d& box : boxes(bin)) {
       if (!box.intersects(bounds(tube))) continue;
-      for (const Capsule& capsule : capsules(tube)) {
+      for (const Capsule& capsule : rounded_capsules(tube)) {
         deepest = std::max(deepest, capsule.radius - distance(capsule, box));
       }
     }

@@ -82,7 +82,7 @@ std::vector<Tube> in_whole_nanometres(std::vector<Tube> tubes) {
 }  // namespace
 
 Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings,
-               std::uint64_t seed) {
+               std::uint64_t seed, const std::function<void(double)>& at_step) {
   World world(tubes, bin, settings, seed);
   const double fall_time = longest_fall(tubes, settings.gravity);
   const double damping_growth = settings.calm_damping * settings.step / settings.calm_time;
@@ -91,6 +91,7 @@ Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSetti
   std::string fault = "no rest: the heap never slowed down";
   while (world.time() < settings.time_limit) {
     world.step({.iterations = settings.iterations, .damping = damping});
+    at_step(world.time());
     if (!are_over_the_bin(world.centres_of_mass(), bin)) {
       fault = "a tube left the bin";
       break;

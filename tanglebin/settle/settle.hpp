@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,10 +47,12 @@ struct Settled {
 /// Drops `tubes`, which must not overlap, into the bin and integrates until they rest, one has left the bin,
 /// or the time is up. The heap is valid if fault_of_heap() finds no fault. One that moves too far in the test
 /// of rest goes on from where the test left it. Bodies are never put to sleep. The same arguments give the
-/// same heap. Not thread-safe: ODE has one random generator per process. Throws InputError for a tube without
+/// same heap. Not thread-safe: ODE has one random generator per process. Calls `at_step` after each step with
+/// the time simulated so far, s; what it throws ends the simulation. Throws InputError for a tube without
 /// mass.
-Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings,
-               std::uint64_t seed);
+Settled settle(
+    const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings, std::uint64_t seed,
+    const std::function<void(double)>& at_step = [](double) {});
 
 /// Describes what is wrong with a heap of tubes with known masses; empty if it is valid. In a valid heap no
 /// overlap exceeds overlap_max, and every centre of mass is between the walls (the heap of a full bin may

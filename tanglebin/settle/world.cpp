@@ -109,16 +109,21 @@ void World::Implementation::add_tube(const Tube& tube) {
   const dSpaceID nodes = dSimpleSpaceCreate(space);
   dGeomSetCategoryBits(reinterpret_cast<dGeomID>(nodes), node_bit);
   dGeomSetCollideBits(reinterpret_cast<dGeomID>(nodes), floor_bit);
-  for (const Edge& edge : body.tube.edges) {
-    const auto [centre, rotation, length] = frame_of(body.tube, edge);
+  const std::vector<Capsule> all = capsules(body.tube);
+  std::vector<Eigen::Vector3d> spheres(body.tube.nodes.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Capsule shape = rounded(all[i]);
+    spheres[body.tube.edges[i].from] = shape.a;
+    spheres[body.tube.edges[i].to] = shape.b;
+    const auto [centre, rotation, length] = frame_between(shape.a, shape.b);
     const dGeomID geom = dCreateCapsule(parts, tube.radius, length);
     dGeomSetBody(geom, body.id);
     set_offset(geom, centre, rotation);
   }
-  for (const Node& node : body.tube.nodes) {
+  for (const Eigen::Vector3d& sphere : spheres) {
     const dGeomID geom = dCreateSphere(nodes, tube.radius);
     dGeomSetBody(geom, body.id);
-    set_offset(geom, node.position, Eigen::Quaterniond::Identity());
+    set_offset(geom, sphere, Eigen::Quaterniond::Identity());
   }
   bodies.push_back(std::move(body));
 }

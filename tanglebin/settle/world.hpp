@@ -25,8 +25,8 @@ struct TubeMotion {
 };
 
 /// Rigid tubes and a bin in ODE. Each tube is a body with its true mass and inertia, and a capsule for each
-/// cylinder. Only one world may be in use at a time in a process: the solver uses ODE's single random
-/// generator, which the constructor seeds.
+/// cylinder, within its flat ends (rounded()). Only one world may be in use at a time in a process: the
+/// solver uses ODE's single random generator, which the constructor seeds.
 class World {
 public:
   /// Throws InputError for a tube whose mass is not positive, such as one read from the text format.

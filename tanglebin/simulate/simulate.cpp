@@ -73,7 +73,8 @@ bool is_hopeless(const std::vector<Rejection>& rejections, int attempts) {
 
 }  // namespace
 
-SimulatedScene simulate(const Recipe& recipe, const CaseId& id, const std::function<void()>& before_attempt) {
+SimulatedScene simulate(const Recipe& recipe, const CaseId& id, const std::function<void()>& before_attempt,
+                        const std::function<void(double)>& at_step) {
   const SetRecipe& set = set_named(recipe, id.set);
   StageTimes times;
   std::vector<Rejection> rejections;
@@ -87,7 +88,7 @@ SimulatedScene simulate(const Recipe& recipe, const CaseId& id, const std::funct
     }();
     Settled heap = [&] {
       const Stopwatch watch(times.settle);
-      return settle(tubes, recipe.bin, recipe.settle, rng());
+      return settle(tubes, recipe.bin, recipe.settle, rng(), at_step);
     }();
     if (!heap.fault.empty()) {
       rejections.push_back({seed, heap.simulated, heap.fault});

@@ -44,8 +44,9 @@ struct SimulatedScene {
 /// number of tubes, case number, attempt). The tubes' numbers are whole nanometres (quaternions: billionths),
 /// so the text format stores the scene exactly. Throws InputError with the reasons after recipe.attempts
 /// failures, or after a quarter of them if a tube left the bin in each: more tubes than fit. Calls
-/// `before_attempt` before each attempt; what it throws ends the simulation.
+/// `before_attempt` before each attempt, and `at_step` as settle() does; what they throw ends the simulation.
 SimulatedScene simulate(
-    const Recipe& recipe, const CaseId& id, const std::function<void()>& before_attempt = [] {});
+    const Recipe& recipe, const CaseId& id, const std::function<void()>& before_attempt = [] {},
+    const std::function<void(double)>& at_step = [](double) {});
 
 }  // namespace tanglebin

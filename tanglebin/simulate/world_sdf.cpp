@@ -4,13 +4,13 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <ostream>
 #include <string>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
+#include "tanglebin/geometry/bin_parts.hpp"
 #include "tanglebin/geometry/mass_properties.hpp"
 
 namespace tanglebin {
@@ -113,13 +113,12 @@ void write_box(XMLPrinter& xml, const std::string& name, const Eigen::AlignedBox
 }
 
 void write_bin(XMLPrinter& xml, const Bin& bin, const Color& color) {
-  static constexpr std::array names{"floor", "wall_min_x", "wall_max_x", "wall_min_y", "wall_max_y"};
   const Element model(xml, "model", "bin");
   write_text(xml, "static", "true");
   const Element link(xml, "link", "body");
   const auto sides = boxes(bin);
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    write_box(xml, names.at(i), sides.at(i), {color, bin.friction});
+    write_box(xml, std::string(bin_part_names.at(i)), sides.at(i), {color, bin.friction});
   }
 }
 
@@ -227,7 +226,10 @@ void write_tube(XMLPrinter& xml, const Tube& tube, const Surface& surface) {
   const Element link(xml, "link", "body");
   write_inertial(xml, properties);
   for (const Edge& edge : tube.edges) write_cylinder(xml, tube, edge, properties.centre, surface);
-  for (const Node& node : tube.nodes) write_sphere(xml, tube, node, properties.centre, surface);
+  const std::vector<bool> flat = flat_nodes(tube);
+  for (std::size_t i = 0; i < tube.nodes.size(); ++i) {
+    if (!flat[i]) write_sphere(xml, tube, tube.nodes[i], properties.centre, surface);
+  }
 }
 
 // The surroundings.

@@ -224,7 +224,7 @@ TEST_F(Generate, MakesAllCasesInAnArrayOverSomethingElseAndSaysSo) {
   EXPECT_EQ(one_of_many.status, 0);
   EXPECT_EQ(nlohmann::json::parse(one_of_many.out)["made"], 9);
   EXPECT_EQ(one_of_many.err,
-            "tanglebin: making all cases, though SLURM_ARRAY_TASK_ID is set; --shard auto makes only this "
+            "tanglebin: taking all cases, though SLURM_ARRAY_TASK_ID is set; --shard auto takes only this "
             "task's part\n");
   // Numbers that define no shards, as in --array=1,3,7, are no business of such a run.
   EXPECT_EQ(run_in("SLURM_ARRAY_TASK_ID=7", command()).status, 0);

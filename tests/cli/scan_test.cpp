@@ -118,8 +118,9 @@ TEST_F(ScanCommand, NamesTheSettingThatIsWrong) {
     EXPECT_FALSE(std::filesystem::exists(directory_ / "cloud.ply"));
     return result.err;
   };
-  EXPECT_THAT(said("--parameter scanner.sigma=0.1 --parameter scanner.baseline=0"),
-              HasSubstr("--parameter:2: scanner.baseline: found 0, expected a positive distance"));
+  EXPECT_THAT(
+      said("--parameter scanner.sigma=0.1 --parameter scanner.baseline=0"),
+      HasSubstr("--parameter:2: scanner.baseline: found 0, expected a distance in metres other than 0"));
   EXPECT_THAT(said("--parameter scanner.snr=-1"), HasSubstr("scanner.snr: found -1"));
   EXPECT_THAT(said("--parameter scanner.focal_length_px=0"), HasSubstr("scanner.focal_length_px: found 0"));
   EXPECT_THAT(said("--parameter scanner.edges=blur"), HasSubstr("\"keep\", \"drop\" or \"mix\""));

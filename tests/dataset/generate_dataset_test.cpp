@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <csignal>
 #include <map>
 #include <set>
@@ -16,6 +17,7 @@
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/dataset/verify_dataset.hpp"
 #include "tanglebin/io/configuration.hpp"
+#include "tanglebin/io/json_record.hpp"
 #include "tanglebin/io/ply.hpp"
 #include "tanglebin/runs/file_lock.hpp"
 #include "tests/dataset/small_recipe.hpp"
@@ -139,6 +141,23 @@ TEST(GenerateDataset, EachTubeMayBeDrawnFromNumbersOfItsOwn) {
     EXPECT_EQ(set.kinds[0].radius, 0.01) << "what is known of the kind";
   }
   EXPECT_EQ(radii.size(), 6U);
+}
+
+TEST(GenerateDataset, WhatHidesAndTouchesWhatIsWrittenOnRequest) {
+  const TemporaryDirectory directory;
+  const Recipe recipe =
+      recipe_of("[scanner]\nwidth = 240\nheight = 150\n[output]\nocclusions = true\n" + small_set);
+  generate(recipe, directory.path());
+  EXPECT_EQ(recipe_in(directory.path()), recipe);
+  const Dataset dataset = read_dataset(directory.path());
+  const CaseId id = cases(dataset).front();
+  EXPECT_THAT(paths_in(dataset.catalogue.record(id)), testing::Contains("A2/occlusions/1.json"));
+  const Json facts = Json::parse(bytes_of(directory / "A2/occlusions/1.json"));
+  const CaseData data = read_case(dataset, id);
+  ASSERT_EQ(facts["tubes"].size(), 2U);
+  for (const Json& tube : facts["tubes"])
+    EXPECT_EQ(tube["visible_pixels"], std::ranges::count(data.cloud.labels, tube["id"].get<int>()));
+  EXPECT_GE(facts["contacts"].size(), 2U) << "tubes at rest touch something";
 }
 
 TEST(GenerateDataset, CloudsMayBeLeftOut) {

@@ -37,7 +37,8 @@ using testing::IsEmpty;
 class VerifyDataset : public testing::Test {
 protected:
   VerifyDataset() {
-    recipe_.output = {.bin_points = true, .worlds = true, .pcds = true, .depths = true, .labels = true};
+    recipe_.output = {
+        .bin_points = true, .worlds = true, .pcds = true, .depths = true, .labels = true, .occlusions = true};
     generate_dataset(recipe_, cases(recipe_), path(), 2);
     before_ = dataset();
   }
@@ -145,11 +146,12 @@ TEST_F(VerifyDataset, FindsFormatsThatAreBrokenThoughTheirChecksumsAreRight) {
   forge("A1/depths/1.png", "no picture");
   forge("A1/depths/1.json", "{");
   forge("A1/labels/3.png", bytes_of(path("A1/labels/3.png")).substr(0, 100));
+  forge("A1/occlusions/2.json", "[");
   std::vector<std::string> where;
   for (const DatasetFault& fault : verify().faults) where.push_back(fault.where);
-  EXPECT_THAT(
-      where, ElementsAre("A1/depths/1.json", "A1/depths/1.png", "A1/gazebo_worlds/1.world", "A1/labels/3.png",
-                         "A1/pcds/1.pcd", "A1/plys/1.ply", "A1/tube_configurations/2.txt", "dataset.json"));
+  EXPECT_THAT(where, ElementsAre("A1/depths/1.json", "A1/depths/1.png", "A1/gazebo_worlds/1.world",
+                                 "A1/labels/3.png", "A1/occlusions/2.json", "A1/pcds/1.pcd", "A1/plys/1.ply",
+                                 "A1/tube_configurations/2.txt", "dataset.json"));
   expect_repair();
 }
 

@@ -61,7 +61,7 @@ protected:
   }
 
   SmallDataset dataset_;
-  ExperimentSettings settings_{.methods = methods(), .ratios = {0.6, 1}, .model = {.seed = 5}};
+  ExperimentSettings settings_{.methods = built_in_entries(), .ratios = {0.6, 1}, .model = {.seed = 5}};
 };
 
 TEST_F(RunExperiment, LeavesALineForEachRunInTheOrderOfMethodCaseAndRatio) {
@@ -75,12 +75,12 @@ TEST_F(RunExperiment, LeavesALineForEachRunInTheOrderOfMethodCaseAndRatio) {
   ASSERT_EQ(lines.size(), settings_.methods.size() * 6 * 2);
   ASSERT_EQ(times.size(), lines.size());
   std::size_t line = 0;
-  for (const Method method : settings_.methods) {
+  for (const Entry& method : settings_.methods) {
     for (const CaseId& id : cases(dataset_.read())) {
       for (const double ratio : settings_.ratios) {
         for (const auto& text : {lines[line], times[line]}) {
           const auto json = nlohmann::json::parse(text);
-          EXPECT_EQ(json.at("method"), name_of(method));
+          EXPECT_EQ(json.at("method"), method.name);
           EXPECT_EQ(json.at("set"), id.set);
           EXPECT_EQ(json.at("tubes"), id.tubes);
           EXPECT_EQ(json.at("case"), id.number);
@@ -106,11 +106,11 @@ TEST_F(RunExperiment, ALineHasWhatModellingAndScoringTheCaseGive) {
   const TemporaryDirectory results;
   run(results, {{"A", 3, 2}});
   const Dataset dataset = dataset_.read();
-  const RunId id{Method::paper, {"A", 3, 2}, 0.6};
+  const RunId id{"paper", {"A", 3, 2}, 0.6};
   const CaseData data = read_case(dataset, id.scene);
   const Model model = model_case(known_scene(recipe_of(dataset, id.scene), id.scene), data, id, settings_);
   EXPECT_EQ(lines_of(bytes_of(results / "results.jsonl")).at(0),
-            result_json(id, case_sha256(dataset, id.scene), model, score_model(data, model)));
+            result_json(id, case_sha256(dataset, id.scene), {.model = model}, score_model(data, model)));
 }
 
 TEST_F(RunExperiment, SaysWhatTheResultsFollowFromAndHowLongTheDatasetTook) {
@@ -195,12 +195,12 @@ TEST_F(RunExperiment, KeepsTheModelsWhereAskedAndMakesThoseThatAreMissing) {
   run(without, wanted);
   EXPECT_FALSE(std::filesystem::exists(without / "models"));
 
-  settings_.methods = {Method::axis};
+  settings_.methods = {entry_of(Method::axis)};
   settings_.keep_models = true;
   EXPECT_EQ(run(with, wanted).progress.made, 2U);
   const auto files = results_in(with);
   const Dataset dataset = dataset_.read();
-  const RunId id{Method::axis, {"A", 3, 2}, 0.6};
+  const RunId id{"axis", {"A", 3, 2}, 0.6};
   const CaseData data = read_case(dataset, id.scene);
   const Model model = model_case(known_scene(recipe_of(dataset, id.scene), id.scene), data, id, settings_);
   EXPECT_EQ(read_ply(with / "models/axis/0.6/A3/plys/2.ply").labels, model.labels);
@@ -349,7 +349,7 @@ TEST_F(RunExperiment, AnotherExperimentIsNotLetIn) {
   settings_.ratios = {0.6, 1};
   settings_.methods.clear();
   expect_refused("methods: the directory belongs to another experiment: ");
-  settings_.methods = methods();
+  settings_.methods = built_in_entries();
   write_bytes(dataset_ / "recipe.toml", bytes_of(dataset_ / "recipe.toml") + "# the same cases\n");
   expect_refused("recipe_sha256: the directory belongs to another experiment: ");
 }

@@ -80,6 +80,7 @@ TEST(ScoreModel, LooksAtThePointsThatTheFilterLeftAlone) {
   const Model model{.tubes = tubes(2), .labels = {1, 2, 2, -1, 1, -1}, .filtered = {0, 1, 2, 4}, .steps = {}};
   const ModelScore score = score_model(data, model);
   EXPECT_EQ(score.labels.points, 3);
+  EXPECT_FALSE(score_model(data, model, false).tubes.has_value());
   EXPECT_EQ(score.labels.micro_recall, 1.0);
 }
 
@@ -108,7 +109,7 @@ TEST(ComparedClouds, GiveAnAssignedTubeTheTrueTubesLabelAndTheOthersNewOnes) {
 TEST(ResultJson, HasTheScoresOfTheModelComputedDirectly) {
   const SmallDataset directory;
   const Dataset dataset = directory.read();
-  const RunId run{Method::paper, {"A", 3, 1}, 1.0};
+  const RunId run{"paper", {"A", 3, 1}, 1.0};
   const CaseData data = read_case(dataset, run.scene);
   const Model model = model_case(known_scene(recipe_of(dataset, run.scene), run.scene), data, run,
                                  {.ratios = {}, .model = {.seed = 5}});
@@ -122,7 +123,8 @@ TEST(ResultJson, HasTheScoresOfTheModelComputedDirectly) {
   const Score expected = score(truth, labels);
   const TubesScore expected_tubes = score_tubes(data.tubes, model.tubes);
 
-  const auto json = nlohmann::json::parse(result_json(run, "0f", model, score_model(data, model)));
+  const Modelled modelled{.model = model, .seconds = 1.5};
+  const auto json = nlohmann::json::parse(result_json(run, "0f", modelled, score_model(data, model)));
   EXPECT_GT(expected.micro_recall, 0);
   EXPECT_EQ(json.at("points"), expected.points);
   EXPECT_EQ(json.at("micro_recall").get<double>(), expected.micro_recall);
@@ -132,6 +134,9 @@ TEST(ResultJson, HasTheScoresOfTheModelComputedDirectly) {
   EXPECT_EQ(json.at("adjusted_rand_index").get<double>(), expected.adjusted_rand_index);
   EXPECT_EQ(json.at("correct"), expected.instances.correct);
   EXPECT_EQ(json.at("noise"), expected.instances.noise);
+  EXPECT_EQ(json.at("correct_points"), expected.correct_points);
+  ASSERT_EQ(json.at("each_tube").size(), expected.tubes.size());
+  EXPECT_EQ(json.at("each_tube").at(1).at("iou").get<double>(), expected.tubes[1].iou);
   EXPECT_EQ(json.at("tubes_found"), model.tubes.size());
   EXPECT_EQ(json.at("centre_line_error").is_null(), !expected_tubes.centre_line_error.has_value());
   EXPECT_EQ(json.at("centre_line_coverage").get<double>(), expected_tubes.centre_line_coverage);
@@ -139,14 +144,18 @@ TEST(ResultJson, HasTheScoresOfTheModelComputedDirectly) {
   EXPECT_EQ(json.at("counts").size(), model.steps.size());
   const Step& first = model.steps.at(0);
   EXPECT_EQ(json.at("counts").at(first.name), first.count);
-  EXPECT_EQ(nlohmann::json::parse(times_json(run, model, 1.5)).at("steps").at(first.name).get<double>(),
-            first.seconds);
+  const auto json_of_times = nlohmann::json::parse(times_json(run, modelled, {"Z80", 2, 0.5}));
+  EXPECT_EQ(json_of_times.at("steps").at(first.name).get<double>(), first.seconds);
+  EXPECT_EQ(json_of_times.at("seconds"), 1.5);
+  EXPECT_EQ(json_of_times.at("processor"), "Z80");
+  EXPECT_EQ(json_of_times.at("jobs"), 2);
+  EXPECT_EQ(json_of_times.at("load"), 0.5);
 }
 
 TEST(ModelCase, ModelsTheSameAgainAndAnotherSeedAnother) {
   const SmallDataset directory;
   const Dataset dataset = directory.read();
-  const RunId run{Method::paper, {"A", 3, 1}, 0.8};
+  const RunId run{"paper", {"A", 3, 1}, 0.8};
   const CaseData data = read_case(dataset, run.scene);
   const auto model = [&](std::uint64_t seed) {
     return model_case(known_scene(recipe_of(dataset, run.scene), run.scene), data, run,

@@ -2,15 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace tanglebin {
 namespace {
 
 RunResult result(const CaseId& id, double ratio, double micro_recall) {
-  return {{Method::paper, id, ratio}, "", micro_recall, std::nullopt, ""};
+  return {.run = {"paper", id, ratio}, .case_sha256 = "", .micro_recall = micro_recall};
 }
 
 RunResult failed(const CaseId& id, double ratio, FailureOf of) {
-  return {{Method::paper, id, ratio}, "", 0, RunFailure{of, "why"}, ""};
+  return {.run = {"paper", id, ratio}, .case_sha256 = "", .failure = RunFailure{of, "why"}};
+}
+
+// At a ratio of 0.3.
+ResultsSummary summary_of(const std::vector<RunResult>& results, double ratio = 0.3) {
+  ResultsSummary summary(ratio);
+  for (const RunResult& result : results) summary.add(result);
+  return summary;
 }
 
 TEST(RatioToShow, IsTheNearestToThatOfThePapersFigure) {
@@ -21,10 +30,10 @@ TEST(RatioToShow, IsTheNearestToThatOfThePapersFigure) {
 }
 
 TEST(MeanMicroRecalls, AreOverTheCasesOfASetAndNumberOfTubesAtOneRatio) {
-  const auto means = mean_micro_recalls(
-      {result({"A", 1, 1}, 0.3, 0.5), result({"A", 1, 1}, 0.4, 0.9), result({"A", 1, 2}, 0.3, 1.0),
-       result({"A", 5, 1}, 0.3, 0.25), result({"B", 1, 1}, 0.3, 0.125)},
-      0.3);
+  const auto means =
+      summary_of({result({"A", 1, 1}, 0.3, 0.5), result({"A", 1, 1}, 0.4, 0.9), result({"A", 1, 2}, 0.3, 1.0),
+                  result({"A", 5, 1}, 0.3, 0.25), result({"B", 1, 1}, 0.3, 0.125)})
+          .means();
   ASSERT_EQ(means.size(), 3U);
   EXPECT_EQ(means[0].mean, 0.75);
   EXPECT_EQ(means[0].cases, 2U);
@@ -35,42 +44,42 @@ TEST(MeanMicroRecalls, AreOverTheCasesOfASetAndNumberOfTubesAtOneRatio) {
 }
 
 TEST(MeanMicroRecalls, AFailedRunIsAZeroAndACaseWithoutAVisibleTubeNone) {
-  const std::vector<RunResult> results = {
-      result({"A", 1, 1}, 0.3, 0.5), failed({"A", 1, 2}, 0.3, FailureOf::method),
-      failed({"A", 1, 3}, 0.3, FailureOf::worker), failed({"A", 1, 4}, 0.3, FailureOf::scene),
-      failed({"A", 1, 4}, 0.4, FailureOf::scene)};
-  const auto means = mean_micro_recalls(results, 0.3);
+  const ResultsSummary summary =
+      summary_of({result({"A", 1, 1}, 0.3, 0.5), failed({"A", 1, 2}, 0.3, FailureOf::method),
+                  failed({"A", 1, 3}, 0.3, FailureOf::worker), failed({"A", 1, 4}, 0.3, FailureOf::scene),
+                  failed({"A", 1, 4}, 0.4, FailureOf::scene)});
+  const auto& means = summary.means();
   ASSERT_EQ(means.size(), 1U);
   EXPECT_EQ(means[0].cases, 3U);
   EXPECT_EQ(means[0].failed, 2U);
   EXPECT_DOUBLE_EQ(means[0].mean, 0.5 / 3);
-  EXPECT_EQ(count_failures(results).failed_runs, 2U);
-  EXPECT_EQ(count_failures(results).cases_unscored, 1U);
+  EXPECT_EQ(summary.failures().failed_runs, 2U);
+  EXPECT_EQ(summary.failures().cases_unscored, 1U);
 }
 
 TEST(Examples, AreOfRunsThatDidNotFail) {
-  const auto found = examples({failed({"A", 1, 1}, 0.3, FailureOf::method), result({"A", 1, 2}, 0.3, 0.2)},
-                              Method::paper, 0.3);
+  const auto found = summary_of({failed({"A", 1, 1}, 0.3, FailureOf::method), result({"A", 1, 2}, 0.3, 0.2)})
+                         .examples("paper");
   ASSERT_EQ(found.size(), 3U);
-  for (const Example& example : found) EXPECT_EQ(example.result.run.scene.number, 2);
+  for (const Example& example : found) EXPECT_EQ(example.scene.number, 2);
 }
 
 TEST(Examples, AreTheBestTheMedianAndTheWorstAndOfEqualsTheFirst) {
-  const auto found =
-      examples({result({"A", 1, 1}, 0.3, 0.5), result({"A", 1, 2}, 0.3, 0.9), result({"A", 1, 3}, 0.3, 0.2),
-                result({"A", 1, 4}, 0.3, 0.9), result({"A", 1, 5}, 0.3, 0.2), result({"A", 1, 6}, 0.4, 1.0)},
-               Method::paper, 0.3);
+  const auto found = summary_of({result({"A", 1, 1}, 0.3, 0.5), result({"A", 1, 2}, 0.3, 0.9),
+                                 result({"A", 1, 3}, 0.3, 0.2), result({"A", 1, 4}, 0.3, 0.9),
+                                 result({"A", 1, 5}, 0.3, 0.2), result({"A", 1, 6}, 0.4, 1.0)})
+                         .examples("paper");
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(found[0].rank, "best");
-  EXPECT_EQ(found[0].result.run.scene.number, 2);
+  EXPECT_EQ(found[0].scene.number, 2);
   EXPECT_EQ(found[1].rank, "median");
-  EXPECT_EQ(found[1].result.run.scene.number, 1);
+  EXPECT_EQ(found[1].scene.number, 1);
   EXPECT_EQ(found[2].rank, "worst");
-  EXPECT_EQ(found[2].result.run.scene.number, 3);
+  EXPECT_EQ(found[2].scene.number, 3);
 }
 
 TEST(Examples, OfNoRunsAreNone) {
-  EXPECT_TRUE(examples({result({"A", 1, 1}, 0.3, 0.5)}, Method::paper, 0.4).empty());
+  EXPECT_TRUE(summary_of({result({"A", 1, 1}, 0.3, 0.5)}, 0.4).examples("paper").empty());
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(Camera, AnUnknownPresetIsNamedTogetherWithTheKnownOnes) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "scanner: found 'eye', expected paper, gaussian, zivid-one-plus-l or kinect-v1");
+                 "scanner: found 'eye', expected paper, gaussian, zivid-one-plus-l, kinect-v1 or phoxi");
   }
 }
 
@@ -116,7 +116,7 @@ TEST(Camera, DepthIsAlongItsView) {
 }
 
 TEST(Camera, ValidationNamesTheFieldThatMakesNoCamera) {
-  for (const char* name : {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1"})
+  for (const char* name : {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1", "phoxi"})
     EXPECT_NO_THROW(validate(camera_preset(name)));
   const auto rejected_field = [](const std::function<void(Camera&)>& spoil) -> std::string {
     Camera camera = camera_preset("paper");

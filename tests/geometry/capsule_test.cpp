@@ -123,5 +123,25 @@ TEST(SurfaceDistance, IsNegativeByTheDepthOfOverlap) {
   EXPECT_NEAR(surface_distance(first, {{0.5, 0.15, -1}, {0.5, 0.15, 1}, 0.1}), -0.05, 1e-15);
 }
 
+TEST(Rounded, EndsWhereTheFlatEndsAre) {
+  const Capsule flat{.a = {0, 0, 0}, .b = {1, 0, 0}, .radius = 0.1, .flat_at_a = true};
+  const Capsule round = rounded(flat);
+  EXPECT_TRUE(round.a.isApprox(Eigen::Vector3d(0.1, 0, 0)));
+  EXPECT_EQ(round.b, flat.b);
+  EXPECT_FALSE(round.flat_at_a);
+}
+
+TEST(Rounded, LeavesACapsuleWithRoundEndsAsItIs) {
+  const Capsule capsule{.a = {0, 0, 0}, .b = {1, 0, 0}, .radius = 0.1};
+  EXPECT_EQ(rounded(capsule).a, capsule.a);
+  EXPECT_EQ(rounded(capsule).b, capsule.b);
+}
+
+TEST(Rounded, ShrinksAShortOneToASphere) {
+  const Capsule disc{.a = {0, 0, 0}, .b = {0.1, 0, 0}, .radius = 0.1, .flat_at_a = true, .flat_at_b = true};
+  EXPECT_TRUE(rounded(disc).a.isApprox(Eigen::Vector3d(0.05, 0, 0)));
+  EXPECT_TRUE(rounded(disc).b.isApprox(Eigen::Vector3d(0.05, 0, 0)));
+}
+
 }  // namespace
 }  // namespace tanglebin

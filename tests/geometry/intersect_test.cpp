@@ -80,6 +80,60 @@ void expect_agreement(const Ray& ray, const std::optional<SurfaceHit>& hit, cons
   EXPECT_NEAR(hit->distance, *truth.crossing, 1e-13 / std::max(slope, 1e-6));
 }
 
+/// Of a capsule that is cut flat, whose signed distance is not known in closed form: the largest of those of
+/// its convex parts has the same zeros and sign.
+double cut_capsule_distance(const Capsule& capsule, const Vector3d& p) {
+  const Vector3d axis = (capsule.b - capsule.a).normalized();
+  double distance = capsule_distance(capsule, p);
+  if (capsule.flat_at_a) distance = std::max(distance, (capsule.a - p).dot(axis));
+  if (capsule.flat_at_b) distance = std::max(distance, (p - capsule.b).dot(axis));
+  return distance;
+}
+
+TEST(RayCapsule, MeetsTheDiscOfAFlatEnd) {
+  Capsule flat = upright;
+  flat.flat_at_b = true;
+  const auto down = ray_capsule({Vector3d(0.6, 0, 10), Vector3d(0, 0, -1)}, flat);
+  ASSERT_TRUE(down);
+  EXPECT_DOUBLE_EQ(down->distance, 8);
+  EXPECT_TRUE(down->normal.isApprox(Vector3d(0, 0, 1)));
+  const auto up = ray_capsule({Vector3d(0, 0, -10), Vector3d(0, 0, 1)}, flat);
+  ASSERT_TRUE(up);
+  EXPECT_DOUBLE_EQ(up->distance, 9) << "the other end is round";
+  EXPECT_FALSE(ray_capsule({Vector3d(-5, 0, 2.1), Vector3d(1, 0, 0)}, flat)) << "through the lost hemisphere";
+  const auto out = ray_capsule({Vector3d(0, 0, 1), Vector3d(0, 0, 1)}, flat);
+  ASSERT_TRUE(out);
+  EXPECT_DOUBLE_EQ(out->distance, 1) << "from inside";
+  EXPECT_TRUE(out->normal.isApprox(Vector3d(0, 0, 1)));
+}
+
+TEST(RayCapsule, FlatEndsAgreeWithASearchAlongTheRay) {
+  Rng rng(11);
+  const AlignedBox3d space(Vector3d(-1, -1, -1), Vector3d(1, 1, 1));
+  int discs = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Capsule capsule{.a = random_point(rng, space),
+                          .b = random_point(rng, space),
+                          .radius = uniform_real(rng, 0.05, 0.5),
+                          .flat_at_a = i % 3 != 0,
+                          .flat_at_b = i % 3 != 1};
+    const Ray ray{5 * random_direction(rng), random_direction(rng)};
+    const Ray aimed{ray.origin, (random_point(rng, space) - ray.origin).normalized()};
+    const auto hit = ray_capsule(aimed, capsule);
+    const auto distance = [&](const Vector3d& p) { return cut_capsule_distance(capsule, p); };
+    const Found truth = search(aimed, distance, 20);
+    if (std::abs(truth.least) < 1e-9) continue;
+    ASSERT_EQ(hit.has_value(), truth.crossing.has_value()) << "closest approach " << truth.least;
+    if (!hit) continue;
+    EXPECT_NEAR(distance(aimed.origin + hit->distance * aimed.direction), 0, 1e-12);
+    EXPECT_NEAR(hit->distance, *truth.crossing, 1e-5);
+    EXPECT_LE(hit->normal.dot(aimed.direction), 0);
+    const Vector3d axis = (capsule.b - capsule.a).normalized();
+    if (std::abs(hit->normal.dot(axis)) > 1 - 1e-12) ++discs;
+  }
+  EXPECT_GT(discs, 50);
+}
+
 TEST(RayCapsule, MeetsTheSideOfTheCylinder) {
   const auto hit = ray_capsule({Vector3d(5, 0, 1), Vector3d(-1, 0, 0)}, upright);
   ASSERT_TRUE(hit);

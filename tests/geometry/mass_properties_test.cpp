@@ -98,6 +98,26 @@ TEST(MassProperties, OfOneCapsuleAreThoseOfTheClosedForm) {
   }
 }
 
+TEST(MassProperties, OfOneCylinderWithFlatEndsAreThoseOfTheClosedForm) {
+  for (const double length : {0.001, 0.02, 0.3}) {
+    Tube tube = test::tube_through({{0, 0, 0}, {length, 0, 0}});
+    tube.flat_ends = true;
+    const MassProperties found = mass_properties(tube);
+    EXPECT_NEAR(found.volume / (pi * r * r * length), 1, rounding);
+    EXPECT_TRUE(found.centre.isApprox(Vector3d(length / 2, 0, 0), rounding));
+    const double across = length * length / 12 + r * r / 4;
+    const Matrix3d expected = found.mass * Vector3d(r * r / 2, across, across).asDiagonal();
+    EXPECT_LT(difference(found.inertia, expected), rounding);
+  }
+}
+
+TEST(MassProperties, FlatEndsTakeTwoHemispheresFromABentTube) {
+  Tube tube = bent_tube(radians(60));
+  const double round = mass_properties(tube).volume;
+  tube.flat_ends = true;
+  EXPECT_NEAR((round - mass_properties(tube).volume) / (4.0 / 3 * pi * r * r * r), 1, 1e-9);
+}
+
 // Each cylinder lacks a hoof (ungula) beyond the mitre plane, ⅔ r³ tan(θ/2), on the inside of the bend, and
 // the joint's sphere adds a lune, ⅔ r³ θ, on the outside.
 TEST(MassProperties, OfABentJointHaveTheVolumeOfTheClosedForm) {

@@ -259,9 +259,31 @@ TEST(Configuration, SaysThatAFileIsEmpty) {
   EXPECT_EQ(complaint("\n"), "tubes.txt:1: number of tubes: found an empty line, expected 1 field: tubes");
 }
 
+TEST(Configuration, MarksATubeWithFlatEndsAndLeavesOthersAsTheyAre) {
+  std::string text = two_tubes;
+  text.replace(text.find("1 3 2\n"), 6, "1 3 2 flat\n");
+  std::istringstream in(text);
+  const std::vector<Tube> tubes = read_configuration(in, "tubes.txt");
+  ASSERT_EQ(tubes.size(), 2U);
+  EXPECT_TRUE(tubes[0].flat_ends);
+  EXPECT_FALSE(tubes[1].flat_ends);
+  std::ostringstream out;
+  write_configuration(out, tubes);
+  EXPECT_EQ(out.str(), text);
+}
+
+TEST(Configuration, KnowsNoEndsButFlatOnes) {
+  EXPECT_EQ(complaint_after("1 3 2\n", "1 3 2 round\n"),
+            "tubes.txt:2: ends: found 'round', expected flat, or nothing for round ends");
+  EXPECT_EQ(
+      complaint_after("1 3 2\n", "1 3 2 flat 1\n"),
+      "tubes.txt:2: tube 1 of 2: found 5 fields from '1' on, expected 3 or 4 fields: id nodes edges ends");
+}
+
 TEST(Configuration, NoticesThatThereAreFewerTubesThanAnnounced) {
-  EXPECT_EQ(complaint_after("2\n1 3 2", "3\n1 3 2"),
-            "tubes.txt:12: tube 3 of 3: found the end of the file, expected 3 fields: id nodes edges");
+  EXPECT_EQ(
+      complaint_after("2\n1 3 2", "3\n1 3 2"),
+      "tubes.txt:12: tube 3 of 3: found the end of the file, expected 3 or 4 fields: id nodes edges ends");
 }
 
 TEST(Configuration, NoticesThatThereAreMoreTubesThanAnnounced) {
@@ -291,7 +313,8 @@ TEST(Configuration, NoticesThatThereAreFewerEdgesThanAnnounced) {
 TEST(Configuration, NoticesThatThereAreMoreEdgesThanAnnounced) {
   const std::string edge = "e_1_4 1 4 1 0.0125 0.05 0 0.1 0.707106781 0 0.707106781 0 0.1\n";
   EXPECT_EQ(complaint_after("2 2 1\n", edge + "2 2 1\n"),
-            "tubes.txt:8: tube 2 of 2: found 13 fields from 'e_1_4' on, expected 3 fields: id nodes edges");
+            "tubes.txt:8: tube 2 of 2: found 13 fields from 'e_1_4' on, expected 3 or 4 fields: id nodes "
+            "edges ends");
 }
 
 TEST(Configuration, NoticesNumbersOfNodesAndEdgesThatMakeNoTree) {
@@ -302,9 +325,9 @@ TEST(Configuration, NoticesNumbersOfNodesAndEdgesThatMakeNoTree) {
 }
 
 TEST(Configuration, DoesNotBelieveAbsurdCounts) {
-  EXPECT_EQ(
-      complaint("1000000000\n"),
-      "tubes.txt:2: tube 1 of 1000000000: found the end of the file, expected 3 fields: id nodes edges");
+  EXPECT_EQ(complaint("1000000000\n"),
+            "tubes.txt:2: tube 1 of 1000000000: found the end of the file, expected 3 or 4 fields: id nodes "
+            "edges ends");
   EXPECT_EQ(
       complaint("1\n1 1000000000 999999999\n"),
       "tubes.txt:3: node 1 of 1000000000: found the end of the file, expected 5 fields: id x y z radius");

@@ -51,7 +51,11 @@ TEST(Parameters, AreAtTheirDefaultsAtFirstAndEachCanBeSet) {
 TEST(Parameters, AreAllInTheManual) {
   std::ifstream file(TANGLEBIN_SOURCE "/docs/algorithm.md");
   const std::string manual{std::istreambuf_iterator<char>(file), {}};
-  for (const auto& [name, value] : parameters({})) EXPECT_THAT(manual, HasSubstr("`" + name + "`"));
+  for (const auto& [name, value] : parameters({})) {
+    const bool is_weight = name.starts_with("axis.link.weights.");
+    const std::string entry = is_weight ? name.substr(name.rfind('.') + 1) : name;
+    EXPECT_THAT(manual, HasSubstr("`" + entry + "`"));
+  }
 }
 
 TEST(Parameters, SayWhatTheyCannotTake) {

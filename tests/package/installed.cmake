@@ -33,6 +33,17 @@ if(NOT output MATCHES "tube 3: ")
   message(FATAL_ERROR "found the output above, expected three tubes")
 endif()
 
+# Scores the example of an algorithm on it.
+run(${CMAKE_COMMAND} -S ${SOURCE}/examples/score_my_algorithm -B ${work}/score_my_algorithm -G ${GENERATOR}
+    -D CMAKE_PREFIX_PATH=${work}/installed -D CMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${work}/score_my_algorithm)
+execute_process(COMMAND ${work}/score_my_algorithm/score_my_algorithm ${work}/dataset/A3/plys/1.ply
+                OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+message("${output}")
+if(NOT output MATCHES "micro-recall (0\\.[0-9]+|1)\n$")
+  message(FATAL_ERROR "found the output above, expected a micro-recall")
+endif()
+
 # A program that only models needs nothing of the simulation.
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/modelling -B ${work}/modelling -G ${GENERATOR}
     -D CMAKE_PREFIX_PATH=${work}/installed -D CMAKE_BUILD_TYPE=Release)

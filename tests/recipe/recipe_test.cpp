@@ -366,8 +366,9 @@ TEST(Recipe, WritesEverySettingThatThereIs) {
   EXPECT_EQ(keys(text, "bin").size(), settings<Bin>());
   EXPECT_EQ(keys(text, "settle").size(), settings<SettleSettings>())
       << "a setting has no line in settle_fields (recipe_fields.hpp)";
-  EXPECT_EQ(keys(text, "output").size(), settings<OutputSettings>() - 2)
-      << "properties have keys of their own, and clouds are only mentioned where they are left out";
+  EXPECT_EQ(keys(text, "output").size(), settings<OutputSettings>() - 3)
+      << "properties have keys of their own; clouds are only mentioned where they are left out, occlusions "
+         "where they are written";
   EXPECT_EQ(keys(write(read(tree)), "[set.tube.segment]").size(),
             settings<Segment>() + settings<SegmentSpec>() - 1)
       << "a setting has no line in segment_fields (recipe_fields.hpp)";
@@ -395,15 +396,19 @@ TEST(Recipe, SwitchesTheTermsOfAScannerOneByOne) {
   EXPECT_EQ(complaint("[scanner]\nedges = \"blur\"\n" + smallest),
             "r.toml:2: scanner.edges: found 'blur', expected \"keep\", \"drop\" or \"mix\"");
   EXPECT_THAT(complaint("[scanner]\n\nbaseline = 0\n" + smallest),
-              HasSubstr("r.toml:3: scanner.baseline: found 0, expected a positive distance"));
+              HasSubstr("r.toml:3: scanner.baseline: found 0, expected a distance in metres other than 0"));
 }
 
 TEST(Recipe, WritesEveryTermOfAScannerThatIsNotIdeal) {
   const Recipe zivid = read("[scanner]\npreset = \"zivid-one-plus-l\"\nbaseline = 0.3\n" + smallest);
   const std::string text = write(zivid);
-  EXPECT_EQ(keys(text, "scanner").size(), 8 + settings<Sensor>())
+  constexpr std::size_t of_the_image = 4;
+  EXPECT_EQ(keys(text, "scanner").size(), 8 + settings<Sensor>() - of_the_image)
       << "a setting has no line in sensor_fields (recipe_fields.hpp)";
   EXPECT_EQ(read(text).sensor, zivid.sensor);
+  const Recipe phoxi = read("[scanner]\npreset = \"phoxi\"\n" + smallest);
+  EXPECT_EQ(keys(write(phoxi), "scanner").size(), 8 + settings<Sensor>());
+  EXPECT_EQ(read(write(phoxi)).sensor, sensor_preset("phoxi"));
 }
 
 TEST(Recipe, TheCommandLineSetsWhatARecipesScannerHas) {
@@ -521,6 +526,15 @@ TubeSpec any_kind() {
     spec.density = any_real(1, 10000);
   }
   spec.segments.clear();
+  if (*rc::gen::arbitrary<bool>()) {
+    spec.radius = any_real(0.001, 0.01);
+    spec.flat_ends = *rc::gen::arbitrary<bool>();
+    spec.pieces = {
+        {.length = any_real(0.1, 0.5)},
+        {.bend = any_angle(1, 90), .bend_radius = any_real(0.02, 1), .twist = any_angle(-180, 180)},
+        {.length = any_real(0.1, 0.5)}};
+    return spec;
+  }
   const int segments = *rc::gen::inRange(1, 5);
   for (int to = 2; to <= segments + 1; ++to) {
     SegmentSpec segment;
@@ -559,7 +573,8 @@ SetRecipe any_set(const std::string& name) {
 }
 
 Sensor any_sensor() {
-  Sensor sensor = sensor_preset(*rc::gen::element("paper", "gaussian", "zivid-one-plus-l", "kinect-v1"));
+  Sensor sensor =
+      sensor_preset(*rc::gen::element("paper", "gaussian", "zivid-one-plus-l", "kinect-v1", "phoxi"));
   sensor.sigma = *rc::gen::arbitrary<bool>() ? any_real(0, 0.01) : sensor.sigma;
   sensor.edges = *rc::gen::element(Edges::keep, Edges::drop, Edges::mix);
   return sensor;
@@ -582,13 +597,10 @@ Recipe any_recipe() {
     recipe.further_scanners = {{"right", any_camera(), any_sensor()}, {"above", any_camera(), any_sensor()}};
   }
   recipe.settle.step = SettleSettings{}.step * any_real(0.5, 1);
-  recipe.output = {*rc::gen::arbitrary<bool>(),
-                   *rc::gen::arbitrary<bool>(),
-                   *rc::gen::arbitrary<bool>(),
-                   *rc::gen::arbitrary<bool>(),
-                   *rc::gen::arbitrary<bool>(),
-                   *rc::gen::arbitrary<bool>(),
-                   any_properties()};
+  recipe.output = {*rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(),
+                   *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(),
+                   *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(),
+                   *rc::gen::arbitrary<bool>(), any_properties()};
   // Names that end in different letters share no folder.
   recipe.sets.push_back(any_set("A"));
   if (*rc::gen::arbitrary<bool>()) recipe.sets.push_back(any_set("set-b_2x"));
@@ -634,6 +646,10 @@ void maybe_random_kind(Recipe& recipe, const std::string& path, const TubeSpec& 
     maybe_random(recipe, path + ".mass", kind.mass, per_tube);
   } else {
     maybe_random(recipe, path + ".density", kind.density, per_tube);
+  }
+  if (!kind.pieces.empty()) {
+    maybe_random(recipe, path + ".piece[0].length", kind.pieces[0].length, per_tube);
+    maybe_random(recipe, path + ".piece[1].bend_radius", kind.pieces[1].bend_radius, per_tube);
   }
   for (std::size_t i = 0; i < kind.segments.size(); ++i) {
     if (*rc::gen::arbitrary<bool>()) continue;
@@ -718,6 +734,10 @@ TEST(Recipe, OnesInTheRepositoryAreWhatTheySay) {
   EXPECT_EQ(cases(read_recipe(file("mixed.toml"))).size(), 60U);
   EXPECT_EQ(cases(read_recipe(file("crowded.toml"))).size(), 50U);
   EXPECT_EQ(cases(read_recipe(file("varied.toml"))).size(), 200U);
+  const Recipe bars = read_recipe(file("bars.toml"));
+  EXPECT_EQ(cases(bars).size(), 280U);
+  EXPECT_NEAR(segments_of(bars.sets.at(0).kinds.at(0))[0].length, 0.244, 0.007);
+  EXPECT_NEAR(segments_of(bars.sets.at(1).kinds.at(0))[0].length, 0.214, 0.007);
   const Recipe paper = read_recipe(file("paper.toml"));
   EXPECT_EQ(cases(paper).size(), 640U);
   EXPECT_EQ(paper.sets.at(0).kinds.at(0).segments.at(0).bend_max, 30 * degree);
@@ -726,6 +746,84 @@ TEST(Recipe, OnesInTheRepositoryAreWhatTheySay) {
   EXPECT_EQ(paper.sets[0].kinds[0], read_recipe(file("set-a.toml")).sets.at(0).kinds.at(0));
   EXPECT_EQ(paper.sets[1].kinds[0], read_recipe(file("set-b.toml")).sets.at(0).kinds.at(0));
   EXPECT_EQ(paper.seed, read_recipe(file("set-a.toml")).seed);
+}
+
+const std::string bar =
+    "[[set]]\n"
+    "name = \"B\"\n"
+    "tubes = [3]\n"
+    "[set.tube]\n"
+    "radius = 0.006\n"
+    "density = 2700\n"
+    "ends = \"flat\"\n"
+    "piece = [\n"
+    "  { length = 0.05 },\n"
+    "  { bend_deg = { min = 90, max = 110 }, bend_radius = 0.02 },\n"
+    "  { length = { one_of = [0.06, 0.08], per = \"tube\" } },\n"
+    "  { bend_deg = 90, bend_radius = 0.02, twist_deg = 180 },\n"
+    "  { length = 0.05 },\n"
+    "]\n";
+
+TEST(RecipeOfBars, HasPiecesWithNumbersOfTheirOwn) {
+  const Recipe recipe = read(bar);
+  const TubeSpec& spec = recipe.sets[0].kinds[0];
+  EXPECT_TRUE(spec.flat_ends);
+  EXPECT_TRUE(spec.segments.empty());
+  ASSERT_EQ(spec.pieces.size(), 5U);
+  EXPECT_EQ(spec.pieces[0], (Piece{.length = 0.05}));
+  EXPECT_EQ(spec.pieces[3], (Piece{.bend = 90 * degree, .bend_radius = 0.02, .twist = 180 * degree}));
+  const CaseId id{"B", 3, 1};
+  const Recipe drawn = resolve(recipe, id, draw(recipe, id));
+  std::set<double> bends;
+  for (int tube = 1; tube <= 3; ++tube) {
+    const TubeSpec& kind = kind_of(drawn.sets[0], tube);
+    bends.insert(kind.pieces[1].bend);
+    EXPECT_TRUE(kind.pieces[2].length == 0.06 || kind.pieces[2].length == 0.08);
+  }
+  EXPECT_EQ(bends.size(), 1U) << "drawn for the scene";
+  EXPECT_GE(*bends.begin(), 90 * degree);
+  EXPECT_LE(*bends.begin(), 110 * degree);
+}
+
+TEST(RecipeOfBars, ReadsBackAsTheSameValue) {
+  const Recipe recipe = read(bar);
+  EXPECT_EQ(read(write(recipe)), recipe);
+  EXPECT_THAT(write(recipe), HasSubstr("[[set.tube.piece]]\nlength = 0.05\n"));
+  EXPECT_THAT(write(recipe), HasSubstr("ends = \"flat\"\n"));
+}
+
+TEST(RecipeOfBars, InheritsAllButTheShape) {
+  const std::string chain_by_default =
+      "[tube]\nradius = 0.006\nmass = 1\nlength = 0.5\nbend_max_deg = 30\nends = \"flat\"\n";
+  const TubeSpec spec =
+      read(chain_by_default + "[[set]]\nname = \"B\"\ntubes = [3]\n[[set.tube.piece]]\nlength = 0.2\n")
+          .sets[0]
+          .kinds[0];
+  EXPECT_EQ(spec.pieces.size(), 1U);
+  EXPECT_EQ(spec.mass, 1);
+  EXPECT_TRUE(spec.flat_ends);
+}
+
+TEST(RecipeOfBars, NamesWhatIsWrongWithAPiece) {
+  EXPECT_THAT(complaint_after("{ length = 0.05 },\n]", "{ length = 0.05, bend_deg = 3 },\n]", bar),
+              HasSubstr("set[0].tube.piece[4].bend_deg"));
+  EXPECT_THAT(complaint_after("{ length = 0.05 },\n]", "{ bend_deg = 3 },\n]", bar),
+              HasSubstr("set[0].tube.piece[4].bend_radius"));
+  EXPECT_THAT(complaint_after("{ length = 0.05 },\n]", "{ lenght = 0.05 },\n]", bar), HasSubstr("length"));
+  EXPECT_THAT(complaint_after("bend_deg = 90, bend_radius = 0.02", "bend_deg = 90, bend_radius = 0.002", bar),
+              HasSubstr("set[0].tube.piece[3].bend_radius: found 0.002, expected at least the bar's radius"));
+  EXPECT_THAT(complaint_after("bend_deg = 90", "bend_deg = 0", bar),
+              HasSubstr("set[0].tube.piece[3].bend_deg: found 0, expected more than 0"));
+  EXPECT_THAT(complaint_after("\"flat\"", "\"cut\"", bar),
+              HasSubstr("set[0].tube.ends: found 'cut', expected \"round\" or \"flat\""));
+  EXPECT_THAT(complaint_after("density = 2700\n", "density = 2700\nbend_max_deg = 30\n", bar),
+              HasSubstr("piece"));
+  EXPECT_THAT(complaint_after("radius = 0.006\n", "radius = 0.006\nlength = 0.5\n", bar), HasSubstr("piece"));
+}
+
+TEST(RecipeOfBars, APieceLongerThanTheBinIsRefused) {
+  EXPECT_THAT(complaint_after("{ length = 0.05 },\n]", "{ length = 0.9 },\n]", bar),
+              HasSubstr("set[0].tube.piece[4].length: found a straight piece of up to 0.9 m"));
 }
 
 TEST(RecipeFormat, IsTheFirstThingThatIsWritten) {

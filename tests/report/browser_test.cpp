@@ -1,10 +1,14 @@
 // The page as a browser shows it.
+#include "tests/support/browser.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tanglebin/report/page.hpp"
 #include "tests/report/synthetic_results.hpp"
@@ -16,14 +20,16 @@ namespace {
 using nlohmann::json;
 using testing::AllOf;
 using testing::Each;
+using testing::ElementsAre;
 using testing::Ge;
 using testing::Gt;
 using testing::SizeIs;
+using testing::StartsWith;
 
 constexpr int phone_width = 375;
 
-// Measures the page that it is appended to, and tells the page around it.
-constexpr const char* measure = R"html(<script>
+// Measures the page that it is appended to.
+constexpr const char* measure = R"js(
 addEventListener("load", () => {
   const all = (selector, value, root = document) => [...root.querySelectorAll(selector)].map(value);
   const isInside = (element, frame) => {
@@ -32,8 +38,10 @@ addEventListener("load", () => {
   };
   const plot = svg => ({
     width: svg.getBoundingClientRect().width,
-    lines: all("g[id*=_plot_] path, g[id*=_plot_] use", mark => mark.getBBox().width + mark.getBBox().height, svg),
-    cutMarks: all("text, g[id*=_plot_] use", mark => isInside(mark, svg) ? 0 : 1, svg).reduce((a, b) => a + b, 0),
+    lines: [...svg.querySelectorAll(".series polyline, .series .mark")]
+      .filter(mark => mark.points?.numberOfItems !== 1)
+      .map(mark => mark.getBBox().width + mark.getBBox().height),
+    cutMarks: all("text, .mark", mark => isInside(mark, svg) ? 0 : 1, svg).reduce((a, b) => a + b, 0),
     textHeights: all("text", text => text.getBoundingClientRect().height, svg),
   });
   const ids = all("[id]", element => element.id);
@@ -45,37 +53,13 @@ addEventListener("load", () => {
     plots: all("svg.plot", plot),
     idsGivenTwice: ids.length - new Set(ids).size,
     headings: all("h1, h2, h3", heading => Number(heading.tagName[1])),
-    images: all("img, svg", element => (element.alt || element.ariaLabel || "").length),
+    images: all("img, svg.plot, canvas", element => (element.alt || element.getAttribute("aria-label") || "").length),
   }), "*");
 });
-</script>)html";
+)js";
 
-constexpr const char* frame = R"html(<!DOCTYPE html>
-<iframe src="page.html" width="375" height="800" style="border: 0"></iframe>
-<script>
-addEventListener("message", event => { document.body.textContent = "MEASURED" + event.data + "END"; });
-</script>)html";
-
-/// What the page measures in a window as wide as a phone's. (A browser's own window cannot be so small.)
 json measured_on_a_phone(const std::string& page) {
-  const test::TemporaryDirectory directory;
-  test::write_bytes(directory / "page.html", page + measure);
-  test::write_bytes(directory / "frame.html", frame);
-  const std::string command =
-      "timeout 240 chromium --headless --no-sandbox --hide-scrollbars --disable-gpu --disable-dev-shm-usage "
-      "--user-data-dir=" +
-      (directory / "profile").string() + " --virtual-time-budget=20000 --dump-dom file://" +
-      (directory / "frame.html").string() + " >" + (directory / "dom").string() + " 2>" +
-      (directory / "err").string();
-  const int status = std::system(command.c_str());
-  const std::string dom = test::bytes_of(directory / "dom");
-  const std::size_t begin = dom.find("MEASURED{");
-  const std::size_t end = dom.find("}END");
-  if (begin == std::string::npos || end == std::string::npos) {
-    ADD_FAILURE() << "chromium, status " << status << ", gave\n" << dom << test::bytes_of(directory / "err");
-    return {};
-  }
-  return json::parse(dom.substr(begin + 8, end + 1 - begin - 8));
+  return test::told_by_page(page, measure, phone_width);
 }
 
 std::string synthetic_page(const test::SyntheticResults& settings) {
@@ -102,13 +86,13 @@ void expect_a_sound_page(const json& page, std::size_t pictures, std::size_t ser
   std::vector<int> headings = page["headings"].get<std::vector<int>>();
   EXPECT_EQ(headings.front(), 1);
   headings.erase(headings.begin());
-  EXPECT_THAT(headings, AllOf(SizeIs(7), Each(2)));
+  EXPECT_THAT(headings, AllOf(SizeIs(9), Each(2)));
 }
 
 class Browser : public testing::Test {
 protected:
   void SetUp() override {
-    if (std::system("command -v chromium >/dev/null") != 0) GTEST_SKIP() << "chromium is not installed";
+    if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
   }
 };
 
@@ -127,15 +111,81 @@ TEST_F(Browser, ShowsASingleRun) {
   expect_a_sound_page(measured_on_a_phone(page), 6, 1);
 }
 
+// ---- All runs
+// ---------------------------------------------------------------------------------------------------
+
+// Sorts, filters, turns pages and plots as a reader does.
+constexpr const char* try_runs = R"js(
+addEventListener("load", () => {
+  const root = document.querySelector(".runs");
+  const rows = () => [...root.querySelectorAll("tbody tr")].map(row => [...row.cells].map(cell => cell.textContent));
+  const heading = text => [...root.querySelectorAll("thead button")].find(button => button.textContent === text);
+  const column = text => [...root.querySelectorAll("thead tr > *")].findIndex(cell => cell.textContent === text);
+  const sorted = () => root.querySelector("[aria-sort]").getAttribute("aria-sort");
+  const choose = (i, value) => {
+    const select = root.querySelectorAll("select")[i];
+    select.value = value;
+    select.dispatchEvent(new Event("change"));
+  };
+  const inked = canvas => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data
+    .reduce((count, value, i) => count + (i % 4 === 3 && value > 0 ? 1 : 0), 0);
+  const labels = () => [...root.querySelectorAll("canvas")].map(canvas => canvas.getAttribute("aria-label"));
+  const told = { pageWidth: document.documentElement.scrollWidth };
+  told.worst = rows().map(row => Number(row[column("micro-recall")]));
+  heading("seconds").click();
+  told.fastest = rows().map(row => Number(row[column("seconds")]));
+  told.focused = document.activeElement.textContent;
+  heading("seconds").click();
+  told.slowest = rows().map(row => Number(row[column("seconds")]));
+  told.sorted = sorted();
+  told.place = root.querySelector("output").value;
+  choose(3, "axis");
+  choose(5, "0.3");
+  root.querySelectorAll(".runs-pages button")[1].click();
+  told.filtered = [...new Set(rows().map(row => row[column("method")] + row[column("ratio")]))];
+  told.filteredPlace = root.querySelector("output").value;
+  choose(0, "mean_iou");
+  choose(1, "seconds");
+  told.labels = labels();
+  told.inked = [...root.querySelectorAll("canvas")].map(inked);
+  parent.postMessage(JSON.stringify(told), "*");
+});
+)js";
+
+TEST_F(Browser, SortsFiltersAndPlotsAllRuns) {
+  const std::string page =
+      synthetic_page({.tubes = {1, 5, 10}, .cases = 10, .methods = {"paper", "axis"}, .ratios = {0.3, 1}});
+  for (const int width : {1280, 390}) {
+    const json told = test::told_by_page(page, try_runs, width);
+    ASSERT_TRUE(told.is_object());
+    EXPECT_LE(told["pageWidth"], width) << "the page scrolls sideways";
+    const auto numbers = [&](const char* name) { return told[name].get<std::vector<double>>(); };
+    EXPECT_THAT(numbers("worst"), SizeIs(20));
+    EXPECT_TRUE(std::ranges::is_sorted(numbers("worst")));
+    EXPECT_TRUE(std::ranges::is_sorted(numbers("fastest")));
+    EXPECT_TRUE(std::ranges::is_sorted(numbers("slowest"), std::greater<>()));
+    EXPECT_LT(numbers("fastest").back(), numbers("slowest").back());
+    EXPECT_EQ(told["focused"], "seconds") << "the keyboard stays where it was";
+    EXPECT_EQ(told["sorted"], "descending");
+    EXPECT_EQ(told["place"], "runs 1 to 20 of 240");
+    EXPECT_THAT(told["filtered"].get<std::vector<std::string>>(), ElementsAre("axis0.3"));
+    EXPECT_EQ(told["filteredPlace"], "runs 21 to 40 of 60");
+    EXPECT_THAT(told["labels"].get<std::vector<std::string>>(),
+                ElementsAre(StartsWith("mean IoU of 60 runs against seconds."),
+                            StartsWith("Histogram of mean IoU of 60 runs.")));
+    EXPECT_THAT(told["inked"].get<std::vector<int>>(), Each(Gt(1000)));
+  }
+}
+
 // The measurements above would tell.
 TEST_F(Browser, ABrokenPictureAndAnEmptyPlotAreSeen) {
   std::string page = synthetic_page({.sets = {"A"}, .tubes = {2, 3}, .cases = 1});
   const std::string png = "data:image/png;base64,iVBOR";
   ASSERT_NE(page.find(png), std::string::npos);
   page.replace(page.find(png), png.size(), "data:image/png;base64,AAAAA");
-  const std::string symbol = "id='plot_8-gpPt6'";
-  ASSERT_NE(page.find(symbol), std::string::npos);
-  page.replace(page.find(symbol), symbol.size(), "id='gone'");
+  const std::string line = "<polyline points";
+  ASSERT_NE(page.find(line), std::string::npos);
+  page.replace(page.find(line), line.size(), "<polyline gone");
   const json measured = measured_on_a_phone(page);
   ASSERT_TRUE(measured.is_object());
   EXPECT_EQ(measured["imageWidths"][0], 0);

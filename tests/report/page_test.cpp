@@ -8,6 +8,7 @@
 namespace tanglebin {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -48,6 +49,7 @@ ExperimentRecord experiment() {
 Results small_results() {
   Results results;
   results.experiment = experiment();
+  results.is_papers = true;
   results.scores = {score(run_of("A", 1), 0.9), score(run_of("A", 2), 0.8), score(run_of("B", 1), 0.7)};
   results.times = {{run_of("A", 1), 0.4}, {run_of("A", 2), 0.46}, {run_of("B", 1), 0.5}};
   results.generation = {generation({"A", 10, 1}, 2.0), generation({"A", 10, 2}, 3.0)};
@@ -109,7 +111,8 @@ TEST(Page, AFailedRunCountsAsOneThatFoundNothingAndIsCounted) {
 
 TEST(Page, TheHeadHasTheHeadlineNumbers) {
   const std::string page = report_page(small_results());
-  EXPECT_THAT(page, HasSubstr("has a mean micro-recall of 0.850 (set A) and 0.700 (set B)"));
+  // Of 0.9 and 0.8: Student's t with one degree of freedom, 12.706, times 0.0707 / sqrt(2).
+  EXPECT_THAT(page, HasSubstr("has a mean micro-recall of 0.850 ± 0.635 (set A) and 0.700 (set B)"));
   EXPECT_THAT(page, HasSubstr("a case of set A with 10 tubes in 0.43 s on average (published: 0.85 s)"));
   EXPECT_THAT(page, HasSubstr("2 cases of set A (10 tubes) and 1 case of set B (10 tubes); seed 7"));
   EXPECT_THAT(page, HasSubstr("i7-8750H"));
@@ -141,6 +144,19 @@ TEST(Page, SaysWhereItShowsAnotherRatioOrNumberOfTubesThanThePaper) {
   EXPECT_THAT(page, HasSubstr("Figure 9, 10, was not run; this shows the nearest, 7."));
 }
 
+TEST(Page, OfAnotherRecipeSaysNothingOfThePaper) {
+  Results results = small_results();
+  results.is_papers = false;
+  for (RunScore& run : results.scores) run.run.ratio = 0.25;
+  const std::string page = report_page(results);
+  const std::string text = page.substr(page.find("<body>"), page.find("<script>") - page.find("<body>"));
+  for (const char* word :
+       {"paper's", "Publish", "publish", "Table 1", "Table 2", "Figure", "i7-8750H", "doi"}) {
+    EXPECT_THAT(text, Not(HasSubstr(word)));
+  }
+  EXPECT_THAT(text, HasSubstr(row({"10", "2", "3.000"})));
+}
+
 TEST(Page, CasesWithoutTubesFoundHaveNoPartInTheCentreLineError) {
   Results results = small_results();
   results.scores[0].centre_line_error.reset();
@@ -154,7 +170,8 @@ TEST(Page, SaysWhatIsMissing) {
   nothing.experiment = experiment();
   nothing.unfinished = true;
   const std::string page = report_page(nothing);
-  for (const char* file : {"generation.jsonl", "times.jsonl", "results.jsonl", "pictures.jsonl"}) {
+  for (const char* file :
+       {"generation.jsonl", "times.jsonl", "results.jsonl", "scenes.jsonl", "pictures.jsonl"}) {
     EXPECT_THAT(page, HasSubstr(std::string("<code>") + file + "</code>"));
   }
   EXPECT_THAT(page, HasSubstr("This experiment is not finished"));
@@ -199,15 +216,21 @@ TEST(Page, NamesFromFilesAreText) {
                        .labels_file = name,
                        .labels_png = {}}};
   const std::string page = report_page(results);
-  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
   EXPECT_THAT(page, HasSubstr("&lt;script&gt;"));
 }
 
-TEST(Page, NeedsNoOtherFileAndNoScript) {
+TEST(Page, NeedsNoOtherFile) {
   const std::string page = report_page(small_results());
-  for (const char* part : {"<script", "<link", "src=\"http", "url(http", "@import", " onload="}) {
+  for (const char* part : {"<script src", "<link", "src=\"http", "url(http", "@import", " onload="}) {
     EXPECT_THAT(page, Not(HasSubstr(part)));
   }
+}
+
+TEST(Page, HasTheLicencesOfTheLibrariesInIt) {
+  EXPECT_THAT(report_page(small_results()),
+              AllOf(HasSubstr("Chart.js Contributors"), HasSubstr("three.js authors"),
+                    HasSubstr("Permission is hereby granted")));
 }
 
 TEST(Page, TheSameResultsGiveTheSameBytes) {

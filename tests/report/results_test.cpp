@@ -146,6 +146,15 @@ TEST_F(ResultsDirectory, APictureWhoseNameIsTooLongIsNamed) {
   expect_error("pictures/LLL", "File name too long");
 }
 
+TEST_F(ResultsDirectory, ScenesAreReadAsTheyAre) {
+  const std::string scene =
+      R"({"name":"A3/1","points":{"count":0},"palette":["#808080"],"labellings":[{"name":"truth"}]})";
+  test::write_bytes(directory_ / "scenes.jsonl", scene + "\n");
+  EXPECT_EQ(read().scenes, std::vector<std::string>{scene});
+  change("scenes.jsonl", "\"truth\"", "3");
+  expect_error("scenes.jsonl:1: labellings[0].name: ", "found '3'");
+}
+
 TEST_F(ResultsDirectory, TimesOfGenerationAreReadAsStrictly) {
   change("generation.jsonl", "\"settle\"", "\"sett\"");
   expect_error("generation.jsonl:1: ", "settle");

@@ -15,6 +15,8 @@ TEST(Summary, OfFiveNumbersIsAsByHand) {
   EXPECT_EQ(summary.count, 5U);
   EXPECT_DOUBLE_EQ(summary.mean, 4);
   EXPECT_DOUBLE_EQ(summary.standard_deviation.value(), std::sqrt(7.5));
+  // The quantile 0.975 of Student's t with 4 degrees of freedom is 2.776445 in any table.
+  EXPECT_NEAR(summary.interval.value(), 2.776445 * std::sqrt(7.5 / 5), 1e-5);
   EXPECT_EQ(summary.least, 1);
   EXPECT_EQ(summary.first_quartile, 2);
   EXPECT_EQ(summary.median, 4);
@@ -32,6 +34,7 @@ TEST(Summary, QuartilesLieBetweenNeighboursWhereNoneIsInTheMiddle) {
 TEST(Summary, OneNumberHasNoStandardDeviation) {
   const Summary summary = summarize({0.5});
   EXPECT_FALSE(summary.standard_deviation.has_value());
+  EXPECT_FALSE(summary.interval.has_value());
   EXPECT_EQ(summary.first_quartile, 0.5);
   EXPECT_EQ(summary.third_quartile, 0.5);
 }

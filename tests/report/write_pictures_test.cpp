@@ -16,7 +16,8 @@ TEST(WritePictures, DrawsTruthAndLabelsOfTheBestTheMedianAndTheWorstRun) {
   const test::SmallDataset directory;
   const test::TemporaryDirectory results;
   const Dataset dataset = directory.read();
-  const ExperimentSettings settings{.methods = methods(), .ratios = {0.4, 0.9}, .model = {.seed = 5}};
+  const ExperimentSettings settings{
+      .methods = built_in_entries(), .ratios = {0.4, 0.9}, .model = {.seed = 5}};
   run_experiment(dataset, settings, cases(dataset), results.path(), 2);
   write_pictures(results.path(), dataset, settings);
 

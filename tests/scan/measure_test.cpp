@@ -116,6 +116,55 @@ TEST(Measure, GaussianNoiseIsAsConfiguredOnPlanesAndCylindersAtAnyDistanceAndAng
   }
 }
 
+TEST(Measure, NoiseOfAColumnIsCorrelatedAsConfiguredAndOfARowNot) {
+  constexpr double correlation = 0.6;
+  const Camera camera = camera_above(2);
+  const Scan ideal = scan({}, wide_bin(), camera);
+  const Scan measured =
+      scan({}, wide_bin(), camera, {.sigma = 0.0005, .column_correlation = correlation}, seed);
+  expect_noise(errors(measured, ideal, range_error), 0.0005);
+  const auto correlation_at = [&](int right, int down) {
+    double sum = 0;
+    int count = 0;
+    for (int v = 0; v + down < camera.height; ++v) {
+      for (int u = 0; u + right < camera.width; ++u, ++count) {
+        sum += range_error(measured.at(u, v), ideal.at(u, v)) *
+               range_error(measured.at(u + right, v + down), ideal.at(u + right, v + down));
+      }
+    }
+    return sum / count / (0.0005 * 0.0005);
+  };
+  constexpr double four_errors = 0.02;
+  EXPECT_NEAR(correlation_at(0, 1), correlation, four_errors);
+  EXPECT_NEAR(correlation_at(0, 2), correlation * correlation, four_errors);
+  EXPECT_NEAR(correlation_at(1, 0), 0, four_errors);
+  EXPECT_NEAR(correlation_at(1, 1), 0, four_errors);
+}
+
+TEST(Measure, QuantizedDepthsAreTheNearestSteps) {
+  const Camera camera = inclined_camera(30 * degree);
+  const Scan ideal = scan({}, wide_bin(), camera);
+  const Scan measured = scan({}, wide_bin(), camera, {.quantization = 0.004}, seed);
+  for (std::size_t i = 0; i < ideal.pixels.size(); i += 7) {
+    const double steps = measured.pixels[i].depth / 0.004;
+    ASSERT_NEAR(steps, std::round(steps), 1e-3);
+    ASSERT_LE(std::abs(measured.pixels[i].depth - ideal.pixels[i].depth), 0.002 + 1e-6);
+  }
+}
+
+TEST(Measure, AMedianTakesMostOfTheNoiseAway) {
+  const Camera camera = camera_above(2);
+  const Scan ideal = scan({}, wide_bin(), camera);
+  const Scan measured = scan({}, wide_bin(), camera, {.sigma = 0.0005, .median = 5}, seed);
+  std::vector<double> inside;  // of the image, where windows are whole
+  for (int v = 2; v < camera.height - 2; ++v) {
+    for (int u = 2; u < camera.width - 2; ++u)
+      inside.push_back(range_error(measured.at(u, v), ideal.at(u, v)));
+  }
+  // Of n values, the median's variance is about pi / 2n times theirs.
+  EXPECT_NEAR(statistics(inside).deviation, 0.0005 * std::sqrt(std::numbers::pi / 2 / 25), 0.000005);
+}
+
 TEST(Measure, NoiseMovesAPointAlongItsRayAlone) {
   const Camera camera = camera_above(2);
   const Scan measured = scan({}, wide_bin(), camera, {.sigma = 0.002}, seed);

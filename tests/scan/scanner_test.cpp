@@ -232,8 +232,7 @@ TEST(Scanner, PixelsAreConsistentInThemselves) {
 
 double distance_to(const Tube& tube, const Vector3d& p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Edge& edge : tube.edges) {
-    const Capsule c = capsule(tube, edge);
+  for (const Capsule& c : capsules(tube)) {
     const Vector3d axis = c.b - c.a;
     const double t = std::clamp((p - c.a).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
     least = std::min(least, (p - c.a - t * axis).norm() - c.radius);

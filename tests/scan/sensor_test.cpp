@@ -31,10 +31,14 @@ TEST(Sensor, IsIdealUnlessATermIsSwitchedOn) {
   EXPECT_FALSE(is_ideal({.disparity_sigma = 0.1}));
   EXPECT_FALSE(is_ideal({.trueness = 0.001}));
   EXPECT_FALSE(is_ideal({.kinect_noise = true}));
+  EXPECT_FALSE(is_ideal({.quantization = 0.0001}));
+  EXPECT_FALSE(is_ideal({.fill = 1}));
+  EXPECT_FALSE(is_ideal({.median = 3}));
+  EXPECT_TRUE(is_ideal({.column_correlation = 0.5})) << "of a noise that is off";
 }
 
 TEST(Sensor, PresetsAreValidAndOnlyThePapersIsIdeal) {
-  for (const char* name : {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1"}) {
+  for (const char* name : {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1", "phoxi"}) {
     EXPECT_EQ(complaint(sensor_preset(name)), "none") << name;
     EXPECT_EQ(is_ideal(sensor_preset(name)), name == std::string("paper")) << name;
   }
@@ -47,7 +51,16 @@ TEST(Sensor, NamesTheKeyThatMakesNoSenseAndTheRemedy) {
               StartsWith("scanner.sigma: found -1, expected at most 1 metre of noise, or 0 for none"));
   EXPECT_THAT(complaint({.dropout = 1}), StartsWith("scanner.dropout: found 1, expected a fraction"));
   EXPECT_THAT(complaint({.baseline = 0}),
-              StartsWith("scanner.baseline: found 0, expected a positive distance"));
+              StartsWith("scanner.baseline: found 0, expected a distance in metres other than 0"));
+  EXPECT_EQ(complaint({.baseline = -0.3}), "none") << "the projector is on the image's left";
+  EXPECT_THAT(complaint({.column_correlation = 1}),
+              StartsWith("scanner.column_correlation: found 1, expected a correlation from 0 to below 1"));
+  EXPECT_THAT(complaint({.quantization = -1}), StartsWith("scanner.quantization: found -1"));
+  EXPECT_THAT(complaint({.fill = -1}), StartsWith("scanner.fill: found -1"));
+  EXPECT_THAT(complaint({.median = 4}),
+              StartsWith("scanner.median: found 4, expected an odd number of pixels from 3 to 31"));
+  EXPECT_THAT(complaint({.median = -3}), StartsWith("scanner.median: found -3"));
+  EXPECT_THAT(complaint({.median = 1}), StartsWith("scanner.median: found 1"));
   EXPECT_THAT(complaint({.baseline = 0}), HasSubstr("shadows = false"));
   EXPECT_THAT(complaint({.working_distance = 0}), StartsWith("scanner.working_distance: found 0"));
   EXPECT_THAT(complaint({.snr = -2}), StartsWith("scanner.snr: found -2, expected a positive ratio"));

@@ -38,6 +38,21 @@ TEST(TubeOverlap, TouchingTubesDoNotOverlap) {
   EXPECT_NEAR(largest_tube_overlap({first, straight_tube({0.325, 0, 0.1}, {0.5, 0, 0.1})}), 0, tight);
 }
 
+TEST(TubeOverlap, BeyondAFlatEndThereIsNothingToOverlap) {
+  const Tube other = straight_tube({0.31, 0, 0.1}, {0.5, 0, 0.1});
+  Tube tube = straight_tube({0, 0, 0.1}, {0.3, 0, 0.1});
+  EXPECT_NEAR(largest_tube_overlap({tube, other}), 0.015, tight);
+  tube.flat_ends = true;
+  EXPECT_NEAR(largest_tube_overlap({tube, other}), 0.0025, tight) << "the other end is round";
+}
+
+TEST(BinOverlap, ATubeMayStandOnAFlatEnd) {
+  Tube tube = straight_tube({0, 0, 0}, {0, 0, 0.1});
+  EXPECT_NEAR(largest_bin_overlap({tube}, Bin{}), radius, tight);
+  tube.flat_ends = true;
+  EXPECT_NEAR(largest_bin_overlap({tube}, Bin{}), 0, tight);
+}
+
 TEST(TubeOverlap, TheDeepestOfAllPairsCounts) {
   const Tube lowest = straight_tube({0, 0, 0.1}, {0.3, 0, 0.1});
   const Tube middle = straight_tube({0, 0, 0.124}, {0.3, 0, 0.124});

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -120,6 +121,17 @@ TEST(Settle, AStraightTubeFallsFlatOnTheFloorWhereItWasDropped) {
   }
 }
 
+TEST(Settle, ABarWithFlatEndsLiesOnTheFloorFromEndToEnd) {
+  const SettleSettings settings;
+  Tube bar = straight_tube({-0.1, 0, 0.3}, {0.1, 0, 0.32});
+  bar.flat_ends = true;
+  const Settled heap = settle({bar}, Bin{}, settings, 1);
+  EXPECT_EQ(heap.fault, "");
+  EXPECT_TRUE(heap.tubes[0].flat_ends);
+  for (const Node& node : heap.tubes[0].nodes)
+    EXPECT_NEAR(node.position.z(), bar.radius - settings.surface_layer, 0.0001);
+}
+
 TEST(Settle, ATubeDroppedAcrossAnotherEndsClearOfIt) {
   const std::vector<Tube> tubes = {straight_tube({-0.2, 0, 0.02}, {0.2, 0, 0.02}, 1),
                                    straight_tube({0.03, -0.15, 0.25}, {0.03, 0.15, 0.25}, 2)};
@@ -128,6 +140,25 @@ TEST(Settle, ATubeDroppedAcrossAnotherEndsClearOfIt) {
   // One lies on the floor and the other still across it, at least one end off the floor.
   EXPECT_NEAR(middle(heap.tubes[0]).z(), tubes[0].radius, 0.0005);
   EXPECT_GT(middle(heap.tubes[1]).z(), 0.02);
+}
+
+TEST(Settle, SaysAtEachStepHowFarItIs) {
+  const SettleSettings settings;
+  const std::vector<Tube> tubes = spawned_tubes(1, 2, 30, Bin{});
+  std::vector<double> times;
+  const Settled heap =
+      settle(tubes, Bin{}, settings, 1, [&](double simulated) { times.push_back(simulated); });
+  EXPECT_TRUE(are_identical(heap, settle(tubes, Bin{}, settings, 1)));
+  ASSERT_FALSE(times.empty());
+  EXPECT_DOUBLE_EQ(times.front(), settings.step);
+  EXPECT_TRUE(std::ranges::is_sorted(times));
+}
+
+TEST(Settle, IsEndedByWhatIsThrownAtAStep) {
+  const auto stop = [](double simulated) {
+    if (simulated > 0.1) throw std::runtime_error("stop");
+  };
+  EXPECT_THROW(settle(spawned_tubes(1, 2, 30, Bin{}), Bin{}, SettleSettings{}, 1, stop), std::runtime_error);
 }
 
 TEST(Settle, NoTubesAreAtRest) {

@@ -113,6 +113,18 @@ TEST(Simulate, IsEndedBetweenAttemptsByWhatItsCallerThrows) {
   EXPECT_EQ(attempts, 3);
 }
 
+TEST(Simulate, IsEndedWithinAnAttemptByWhatItsCallerThrows) {
+  double last = 0;
+  const auto stop_after_a_tenth = [&](double simulated) {
+    last = simulated;
+    if (simulated > 0.1) throw std::runtime_error("stop");
+  };
+  EXPECT_THROW(simulate(
+                   small_recipe(), {"A", 3, 1}, [] {}, stop_after_a_tenth),
+               std::runtime_error);
+  EXPECT_NEAR(last, 0.1, 0.003);
+}
+
 TEST(Simulate, KnowsOnlyTheRecipesSets) {
   EXPECT_THROW(simulate(small_recipe(), {"B", 1, 1}), InputError);
 }

@@ -193,6 +193,16 @@ TEST(WorldSdf, TreesAreRigidModelsOfCylindersAndSpheres) {
 }
 
 // Where pitch is ±90°, roll and yaw turn about the same axis.
+TEST(WorldSdf, AFlatEndHasNoSphere) {
+  Tube tube = straight_tube({0, 0, 0.1}, {0.2, 0, 0.1});
+  const auto solids = [&] {
+    return only_link(*load(world_text({tube})).WorldByIndex(0), "tube_1").CollisionCount();
+  };
+  EXPECT_EQ(solids(), 3U);
+  tube.flat_ends = true;
+  EXPECT_EQ(solids(), 1U);
+}
+
 TEST(WorldSdf, TubesAlongEveryAxisKeepTheirDirection) {
   const Eigen::Vector3d from(0.1, -0.05, 0.03);
   for (const Eigen::Vector3d& axis :

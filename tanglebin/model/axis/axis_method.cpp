@@ -163,7 +163,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
       return false;
     });
     const auto index = static_cast<std::size_t>(&kind - known.kinds.data());
-    std::ranges::move(evidence_of(steps, index, steps.length * (1 + settings.link.length_tolerance)),
+    std::ranges::move(evidence_of(steps, index, length_max(steps.length, settings.link)),
                       std::back_inserter(model.evidence));
   });
   clock.end_step("fit", model.tubes.size(), "tubes");

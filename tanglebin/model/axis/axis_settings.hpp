@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "tanglebin/model/axis/link_weights.hpp"
 #include "tanglebin/model/scene/shared_settings.hpp"
 
 namespace tanglebin {
@@ -66,6 +67,7 @@ struct LinkSettings {
   // length it lacks.
   double misfit_unit = 0.9;
   double missing_unit = 4.0;
+  LinkWeights weights = learned_weights;
 };
 
 /// Fit: lays straight pieces along a centre line and moves them by least squares.

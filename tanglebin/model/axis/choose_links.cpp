@@ -30,7 +30,7 @@ struct Candidates {
   const std::vector<Link>& links;  ///< heaviest first
   const TubeKind& kind;
   const LinkSettings& settings;
-  double tube_length_max = length_max(kind, settings);  ///< m
+  double tube_length_max = length_max(kind.length(), settings);  ///< m
   int tube_ends_max = count_ends(kind.segments) + settings.ends_tolerance;
   std::vector<WeightedPair> pairs = {};  ///< the two ends of each link as vertices, and its weight
   std::size_t vertices = 0;

@@ -109,11 +109,12 @@ WholeChains whole_chains(TubeKind kind, const std::vector<Fragment>& fragments, 
 // A known length, unless it is too short for what is seen.
 double checked_length(const TubeKind& kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                       double longest, const LinkSettings& settings) {
-  if (longest <= length_max(kind, settings)) return kind.length();
+  if (longest <= length_max(kind.length(), settings)) return kind.length();
   TubeKind unknown = kind;
   unknown.segments[0].length = std::numeric_limits<double>::infinity();
   const Agreement agreement = whole_chains(unknown, fragments, seen, longest, settings).agreement;
-  const bool is_too_short = agreement.chains >= enough && agreement.length > length_max(kind, settings);
+  const bool is_too_short =
+      agreement.chains >= enough && agreement.length > length_max(kind.length(), settings);
   return is_too_short ? agreement.length : kind.length();
 }
 

@@ -76,7 +76,7 @@ double prior(LinkKind kind, const LinkSettings& settings) {
 }
 
 double weight_of(const Link& link, const LinkSettings& settings) {
-  const LinkFeatures& weights = learned_weights.of(link.kind);
+  const LinkFeatures& weights = settings.weights.of(link.kind);
   return prior(link.kind, settings) + ends_taken(link.kind) * std::inner_product(weights.begin(),
                                                                                  weights.end(),
                                                                                  link.features.begin(), 0.0);
@@ -120,7 +120,7 @@ public:
         seen_(seen),
         kind_(kind),
         settings_(settings),
-        length_max_(length_max(kind, settings)),
+        length_max_(length_max(kind.length(), settings)),
         obstacles_(fragments, kind.radius, others) {
     if (!kind.branches()) return;
     for (std::size_t i = 0; i < fragments.size(); ++i) {
@@ -232,20 +232,8 @@ private:
 
 }  // namespace
 
-const LinkFeatures& LinkWeights::of(LinkKind kind) const {
-  switch (kind) {
-    case LinkKind::chain_ends:
-      return chain_ends;
-    case LinkKind::tree_ends:
-      return tree_ends;
-    case LinkKind::junction:
-      break;
-  }
-  return junction;
-}
-
-double length_max(const TubeKind& kind, const LinkSettings& settings) {
-  return kind.length() * (1 + settings.length_tolerance);
+double length_max(double length, const LinkSettings& settings) {
+  return length * (1 + settings.length_tolerance);
 }
 
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,

@@ -26,12 +26,12 @@ struct DepthGrid {
 };
 
 DepthGrid depth_grid(const std::vector<Eigen::Vector3f>& points, const Camera& camera) {
-  std::vector<std::optional<PixelPosition>> pixels;
-  pixels.reserve(points.size());
+  std::vector<std::optional<SeenPixel>> seen;
+  seen.reserve(points.size());
   Eigen::AlignedBox2i part;
   for (const Eigen::Vector3f& point : points) {
-    pixels.push_back(point.allFinite() ? pixel_of(camera, point.cast<double>()) : std::nullopt);
-    if (pixels.back()) part.extend(Eigen::Vector2i(pixels.back()->column, pixels.back()->row));
+    seen.push_back(point.allFinite() ? seen_pixel(camera, point.cast<double>()) : std::nullopt);
+    if (seen.back()) part.extend(Eigen::Vector2i(seen.back()->pixel.column, seen.back()->pixel.row));
   }
   DepthGrid grid;
   if (part.isEmpty()) return grid;
@@ -40,11 +40,11 @@ DepthGrid depth_grid(const std::vector<Eigen::Vector3f>& points, const Camera& c
   grid.depths.assign(grid.width * grid.height, std::numeric_limits<float>::quiet_NaN());
   grid.points.assign(grid.width * grid.height, DepthGrid::none);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!pixels[i]) continue;
-    const auto row = static_cast<std::size_t>(pixels[i]->row - part.min().y());
-    const auto column = static_cast<std::size_t>(pixels[i]->column - part.min().x());
+    if (!seen[i]) continue;
+    const auto row = static_cast<std::size_t>(seen[i]->pixel.row - part.min().y());
+    const auto column = static_cast<std::size_t>(seen[i]->pixel.column - part.min().x());
     const std::size_t pixel = row * grid.width + column;
-    const auto depth = static_cast<float>(depth_of(camera, points[i].cast<double>()));
+    const auto depth = static_cast<float>(seen[i]->depth);
     if (grid.points[pixel] != DepthGrid::none && grid.depths[pixel] <= depth) continue;
     grid.depths[pixel] = depth;
     grid.points[pixel] = static_cast<std::uint32_t>(i);

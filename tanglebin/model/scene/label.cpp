@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,32 +17,15 @@ using Eigen::Vector3d;
 struct Claim {
   std::int32_t label;
   Capsule capsule;
-  std::array<bool, 2> is_flat;  // at a and at b
-  double distance_max;          // m
+  double distance_max;  // m
   Eigen::AlignedBox3d box;
 };
-
-// The number of edges at each node.
-std::vector<int> edges_at_nodes(const Tube& tube) {
-  std::vector<int> count(tube.nodes.size());
-  for (const Edge& edge : tube.edges) {
-    ++count[edge.from];
-    ++count[edge.to];
-  }
-  return count;
-}
 
 std::vector<Claim> claims_of(const std::vector<Tube>& tubes, double distance_max) {
   std::vector<Claim> claims;
   for (const Tube& tube : tubes) {
-    const std::vector<int> edges_at = edges_at_nodes(tube);
-    const auto is_flat = [&](std::size_t node) { return tube.flat_ends && edges_at[node] == 1; };
-    for (const Edge& edge : tube.edges) {
-      Claim claim{tube.id,
-                  capsule(tube, edge),
-                  {is_flat(edge.from), is_flat(edge.to)},
-                  distance_max * tube.radius,
-                  {}};
+    for (const Capsule& capsule : capsules(tube)) {
+      Claim claim{tube.id, capsule, distance_max * tube.radius, {}};
       claim.box.extend(claim.capsule.a);
       claim.box.extend(claim.capsule.b);
       claim.box.min().array() -= tube.radius + claim.distance_max;
@@ -71,10 +53,10 @@ double distance_from_cut(const Capsule& capsule, const Vector3d& end, const Vect
 }
 
 double surface_distance_of(const Claim& claim, const Vector3d& point) {
-  const auto& [a, b, radius] = claim.capsule;
+  const auto& [a, b, radius, flat_at_a, flat_at_b] = claim.capsule;
   const bool is_nearer_to_b = nearest_on_axis(claim.capsule, point) > 0.5;
-  if (!claim.is_flat[is_nearer_to_b ? 1 : 0] || a == b)
-    return std::abs(axis_distance(claim.capsule, point) - radius);
+  const bool is_cut = is_nearer_to_b ? flat_at_b : flat_at_a;
+  if (!is_cut || a == b) return std::abs(axis_distance(claim.capsule, point) - radius);
   const Vector3d along = (b - a).normalized();
   return is_nearer_to_b ? distance_from_cut(claim.capsule, b, along, point)
                         : distance_from_cut(claim.capsule, a, -along, point);

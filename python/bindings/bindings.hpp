@@ -1,0 +1,40 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+// What all bindings need.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <string>
+
+#include "docstrings.hpp"
+
+// The Python module tanglebin._core: a function for each concept. The docstrings are the comments of the C++
+// headers.
+namespace tanglebin::python {
+
+namespace py = pybind11;
+
+void bind_errors(py::module_& module);
+void bind_geometry(py::module_& module);
+void bind_cloud(py::module_& module);
+void bind_simulation(py::module_& module);
+void bind_recipe(py::module_& module);
+void bind_scene(py::module_& module);
+void bind_model(py::module_& module);
+void bind_score(py::module_& module);
+void bind_dataset(py::module_& module);
+
+/// Calls `call` without the GIL, so that other Python threads run meanwhile.
+template <typename Call>
+auto without_gil(const Call& call) {
+  const py::gil_scoped_release released;
+  return call();
+}
+
+/// A comment of the headers, and what is to be said of the binding alone.
+inline std::string also(const char* comment, const char* note) {
+  return std::string(comment) + "\n\n" + note;
+}
+
+}  // namespace tanglebin::python

@@ -1,0 +1,20 @@
+#include "bindings.hpp"
+#include "tanglebin/dataset/versions.hpp"
+
+namespace tanglebin::python {
+
+// In the order in which they use each other's classes.
+PYBIND11_MODULE(_core, module) {
+  module.attr("__version__") = versions().at("tanglebin");
+  bind_errors(module);
+  bind_geometry(module);
+  bind_cloud(module);
+  bind_simulation(module);
+  bind_recipe(module);
+  bind_scene(module);
+  bind_model(module);
+  bind_score(module);
+  bind_dataset(module);
+}
+
+}  // namespace tanglebin::python

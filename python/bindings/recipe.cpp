@@ -1,0 +1,191 @@
+#include "tanglebin/recipe/recipe.hpp"
+
+#include <pybind11/operators.h>
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "arrays.hpp"
+#include "long_work.hpp"
+#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/recipe/doubts.hpp"
+#include "tanglebin/simulate/simulate.hpp"
+#include "tanglebin/simulate/world_sdf.hpp"
+
+namespace tanglebin::python {
+namespace {
+
+namespace doc = tanglebin::doc::recipe;
+
+std::string text_of(const Recipe& recipe) {
+  validate(recipe);
+  std::ostringstream out;
+  write_recipe(out, recipe);
+  return std::move(out).str();
+}
+
+Recipe recipe_from(const std::string& text) {
+  std::istringstream in(text);
+  return read_recipe(in, "recipe");
+}
+
+void bind_case_id(py::module_& module) {
+  py::class_<CaseId>(module, "CaseId", doc::CaseId)
+      .def(py::init([](std::string set, int tubes, int number) {
+             return CaseId{std::move(set), tubes, number};
+           }),
+           py::arg("set"), py::arg("tubes"), py::arg("number"))
+      .def_readonly("set", &CaseId::set, "the name of its set")
+      .def_readonly("tubes", &CaseId::tubes, doc::CaseId_tubes)
+      .def_readonly("number", &CaseId::number, doc::CaseId_number)
+      .def(py::self == py::self)
+      .def(py::self < py::self)
+      .def("__hash__", [](const CaseId& id) { return py::hash(py::make_tuple(id.set, id.tubes, id.number)); })
+      .def("__str__", [](const CaseId& id) { return name_of(id); })
+      .def("__repr__", [](const CaseId& id) { return "<CaseId " + name_of(id) + ">"; })
+      .def(py::pickle(
+          [](const CaseId& id) { return py::make_tuple(id.set, id.tubes, id.number); },
+          [](const py::tuple& state) {
+            return CaseId{state[0].cast<std::string>(), state[1].cast<int>(), state[2].cast<int>()};
+          }));
+}
+
+void bind_parts(py::module_& module) {
+  py::class_<PointProperties>(module, "PointProperties", tanglebin::doc::scan::PointProperties)
+      .def(py::init<>())
+      .def_readwrite("normals", &PointProperties::normals, "outward unit normals")
+      .def_readwrite("intensities", &PointProperties::intensities,
+                     tanglebin::doc::scan::PointProperties_intensities)
+      .def_readwrite("mixed", &PointProperties::mixed, "marks of mixed points");
+  py::class_<OutputSettings>(module, "OutputSettings", doc::OutputSettings)
+      .def(py::init<>())
+      .def_readwrite("plys", &OutputSettings::plys, doc::OutputSettings_plys)
+      .def_readwrite("bin_points", &OutputSettings::bin_points, doc::OutputSettings_bin_points)
+      .def_readwrite("worlds", &OutputSettings::worlds, doc::OutputSettings_worlds)
+      .def_readwrite("pcds", &OutputSettings::pcds, doc::OutputSettings_pcds)
+      .def_readwrite("depths", &OutputSettings::depths, doc::OutputSettings_depths)
+      .def_readwrite("labels", &OutputSettings::labels, doc::OutputSettings_labels)
+      .def_readwrite("properties", &OutputSettings::properties, doc::OutputSettings_properties);
+  py::class_<Scanner>(module, "Scanner", doc::Scanner)
+      .def(py::init([](const std::string& name, const Camera& camera, const Sensor& sensor) {
+             return Scanner{name, camera, sensor};
+           }),
+           py::arg("name"), py::arg("camera"), py::arg("sensor"))
+      .def_readwrite("name", &Scanner::name, doc::Scanner_name)
+      .def_readwrite("camera", &Scanner::camera, tanglebin::doc::geometry::Camera)
+      .def_readwrite("sensor", &Scanner::sensor, tanglebin::doc::scan::Sensor);
+  module.def(
+      "scanner_with",
+      [](const std::string& preset, const std::vector<std::string>& settings) {
+        return scanner_with(preset, settings, "settings");
+      },
+      py::arg("preset"), py::arg("settings") = std::vector<std::string>{}, doc::scanner_with);
+  py::class_<SetRecipe>(module, "SetRecipe", doc::SetRecipe)
+      .def(py::init([](const std::string& name, const std::vector<int>& tubes, int cases,
+                       const std::vector<TubeSpec>& kinds) {
+             return SetRecipe{.name = name, .tubes = tubes, .cases = cases, .kinds = kinds};
+           }),
+           py::arg("name"), py::arg("tubes"), py::arg("cases") = SetRecipe{}.cases,
+           py::arg_v("kinds", SetRecipe{}.kinds, "[TubeSpec()]"))
+      .def_readwrite("name", &SetRecipe::name, doc::SetRecipe_name)
+      .def_readwrite("tubes", &SetRecipe::tubes, doc::SetRecipe_tubes)
+      .def_readwrite("cases", &SetRecipe::cases, doc::SetRecipe_cases)
+      .def_readwrite("kinds", &SetRecipe::kinds, doc::SetRecipe_kinds)
+      .def_readwrite("weights", &SetRecipe::weights, doc::SetRecipe_weights);
+}
+
+void bind_recipes(py::module_& module) {
+  py::class_<Recipe>(module, "Recipe", doc::Recipe)
+      .def(py::init(&recipe_from), py::arg("toml"), "Reads the text of a recipe (docs/formats.md).")
+      .def("toml", &text_of, "The text of the recipe, resolved: every value, presets spelled out.")
+      .def_readwrite("seed", &Recipe::seed, "the seed of the dataset")
+      .def_readwrite("attempts", &Recipe::attempts, doc::Recipe_attempts)
+      .def_readwrite("bin", &Recipe::bin, tanglebin::doc::geometry::Bin)
+      .def_readwrite("scanner_name", &Recipe::scanner_name,
+                     "the first scanner's; may be empty if it is the only one")
+      .def_readwrite("camera", &Recipe::camera, doc::Recipe_camera)
+      .def_readwrite("sensor", &Recipe::sensor, "of the first scanner")
+      .def_readwrite("further_scanners", &Recipe::further_scanners, doc::Recipe_further_scanners)
+      .def_readwrite("settle", &Recipe::settle, tanglebin::doc::settle::SettleSettings)
+      .def_readwrite("output", &Recipe::output, doc::OutputSettings)
+      .def_readwrite("sets", &Recipe::sets, "A list of SetRecipe; a copy, so assign it to change it.")
+      .def_property_readonly(
+          "is_random", [](const Recipe& recipe) { return !recipe.random.empty(); },
+          "Whether cases draw numbers of their own; resolved() gives the recipe of a case.")
+      .def_property_readonly(
+          "cases", [](const Recipe& recipe) { return cases(recipe); }, doc::cases)
+      .def(
+          "resolved",
+          [](const Recipe& recipe, const CaseId& id) { return resolve(recipe, id, draw(recipe, id)); },
+          py::arg("id"), doc::resolve)
+      .def(
+          "validate", [](const Recipe& recipe) { validate(recipe); }, doc::validate)
+      .def("doubts", &doubts, doc::doubts)
+      .def(py::self == py::self)
+      .def(py::pickle(&text_of, &recipe_from));
+  module.def(
+      "read_recipe", [](const std::filesystem::path& file) { return read_recipe(file); }, py::arg("file"),
+      doc::read_recipe);
+  module.def(
+      "write_recipe",
+      [](const std::filesystem::path& file, const Recipe& recipe) { write_file(file, text_of(recipe)); },
+      py::arg("file"), py::arg("recipe"), doc::write_recipe);
+}
+
+void bind_simulate(py::module_& module) {
+  namespace doc = tanglebin::doc::simulate;
+  py::class_<Rejection>(module, "Rejection", doc::Rejection)
+      .def_readonly("seed", &Rejection::seed, "of the attempt")
+      .def_readonly("simulated", &Rejection::simulated, doc::Rejection_simulated)
+      .def_readonly("fault", &Rejection::fault, "why it is not valid");
+  py::class_<SimulatedScene>(module, "SimulatedScene", doc::SimulatedScene)
+      .def_readonly("tubes", &SimulatedScene::tubes, "at rest, m, world frame")
+      .def_readonly("scan", &SimulatedScene::scan, doc::SimulatedScene_scan)
+      .def_readonly("further_scans", &SimulatedScene::further_scans, doc::SimulatedScene_further_scans)
+      .def_readonly("seed", &SimulatedScene::seed, doc::SimulatedScene_seed)
+      .def_readonly("simulated", &SimulatedScene::simulated, doc::SimulatedScene_simulated)
+      .def_readonly("largest_overlap", &SimulatedScene::largest_overlap, doc::SimulatedScene_largest_overlap)
+      .def_readonly("rejections", &SimulatedScene::rejections, "the attempts before");
+  module.def(
+      "simulate",
+      [](const Recipe& dataset, const CaseId& id, const Progress& progress) {
+        validate(dataset);
+        return without_gil([&] {
+          const Recipe recipe = resolve(dataset, id, draw(dataset, id));
+          const std::lock_guard alone(simulation());
+          Reporter reporter(progress);
+          int attempts = -1;
+          return simulate(
+              recipe, id, [&] { ++attempts; }, [&](double) { reporter.report(attempts, recipe.attempts); });
+        });
+      },
+      py::arg("recipe"), py::arg("id"), py::arg("progress") = py::none(),
+      also(doc::simulate,
+           "Takes any recipe, and draws the case's random numbers. `progress` is called with the attempts "
+           "rejected so far and the most there may be. Ctrl-C raises KeyboardInterrupt. Other "
+           "simulations in this process wait.")
+          .c_str());
+  module.def(
+      "write_world",
+      [](const std::filesystem::path& file, const std::vector<Tube>& tubes, const Bin& bin,
+         const Camera& camera, const SettleSettings& settle) {
+        std::ostringstream out;
+        write_world(out, tubes, bin, camera, settle);
+        write_file(file, out.view());
+      },
+      py::arg("file"), py::arg("tubes"), py::arg("bin"), py::arg("camera"),
+      py::arg_v("settle", SettleSettings{}, "SettleSettings()"), doc::write_world);
+}
+
+}  // namespace
+
+void bind_recipe(py::module_& module) {
+  bind_case_id(module);
+  bind_parts(module);
+  bind_recipes(module);
+  bind_simulate(module);
+}
+
+}  // namespace tanglebin::python

@@ -1,0 +1,85 @@
+#include "tanglebin/cli/score_dataset.hpp"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "tanglebin/cli/arguments.hpp"
+#include "tanglebin/cli/exit_status.hpp"
+#include "tanglebin/cli/print.hpp"
+#include "tanglebin/experiment/measures.hpp"
+#include "tanglebin/experiment/score_dataset.hpp"
+#include "tanglebin/recipe/case_json.hpp"
+
+namespace tanglebin::cli {
+namespace {
+
+void print_scene_json(const SceneScore& scene) {
+  nlohmann::ordered_json json = id_json(scene.scene);
+  if (scene.failure) add_failure(json, *scene.failure);
+  if (scene.score) {
+    json.update(measures_json(scene.score->labels));
+    if (scene.score->tubes) json.update(measures_json(*scene.score->tubes));
+  }
+  print_json_line(json);
+}
+
+void print_scene(const SceneScore& scene) {
+  if (scene.failure) {
+    print_out("{:<12} {}\n", name_of(scene.scene), scene.failure->reason);
+    return;
+  }
+  const Score& score = scene.score->labels;
+  print_out("{:<12} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7.4f}\n", name_of(scene.scene),
+            score.micro_recall, score.mean_iou, score.detection.f1, score.detection.panoptic_quality,
+            score.adjusted_rand_index);
+}
+
+void print_means_json(const std::vector<MeanScore>& means) {
+  nlohmann::ordered_json json{{"means", nlohmann::ordered_json::array()}};
+  for (const MeanScore& mean : means) {
+    json["means"].push_back({{"set", mean.set},
+                             {"tubes", mean.tubes},
+                             {"scenes", mean.scenes},
+                             {"failed", mean.failed},
+                             {"micro_recall", mean.micro_recall},
+                             {"mean_iou", mean.mean_iou},
+                             {"f1", mean.f1},
+                             {"panoptic_quality", mean.panoptic_quality},
+                             {"adjusted_rand_index", mean.adjusted_rand_index}});
+  }
+  print_json_line(json);
+}
+
+void print_means(const std::vector<MeanScore>& means) {
+  print_out("\n{:<6} {:>5} {:>6} {:>6} {:>12} {:>9} {:>7} {:>7} {:>7}\n", "set", "tubes", "scenes", "failed",
+            "micro-recall", "mean IoU", "F1", "PQ", "ARI");
+  for (const MeanScore& mean : means) {
+    print_out("{:<6} {:>5} {:>6} {:>6} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7.4f}\n", mean.set, mean.tubes,
+              mean.scenes, mean.failed, mean.micro_recall, mean.mean_iou, mean.f1, mean.panoptic_quality,
+              mean.adjusted_rand_index);
+  }
+}
+
+}  // namespace
+
+void score_dataset(const std::string& directory, const std::string& labels, bool json) {
+  expect_dataset(directory);
+  const Dataset dataset = read_dataset(directory);
+  expect_clouds(dataset);
+  if (!json)
+    print_out("{:<12} {:>12} {:>9} {:>7} {:>7} {:>7}\n", "scene", "micro-recall", "mean IoU", "F1", "PQ",
+              "ARI");
+  std::vector<MeanScore> means;
+  std::size_t failed = 0;
+  for (const CaseId& id : cases(dataset)) {
+    const SceneScore scene = score_scene(dataset, id, {labels});
+    (json ? print_scene_json : print_scene)(scene);
+    add(means, scene);
+    if (scene.failure && scene.failure->of == FailureOf::method) ++failed;
+  }
+  (json ? print_means_json : print_means)(means);
+  if (failed > 0) throw CLI::RuntimeError(exit_cases_failed);
+}
+
+}  // namespace tanglebin::cli

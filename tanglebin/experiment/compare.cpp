@@ -1,0 +1,241 @@
+#include "tanglebin/experiment/compare.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/base/random.hpp"
+#include "tanglebin/base/text.hpp"
+#include "tanglebin/experiment/results.hpp"
+#include "tanglebin/io/read_file.hpp"
+
+namespace tanglebin {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<const char*, 5> measure_names = {"micro_recall", "mean_iou", "f1", "panoptic_quality",
+                                                      "adjusted_rand_index"};
+using Measures = std::array<double, measure_names.size()>;
+
+/// The runs of a method on a scene, by ratio.
+struct SceneRuns {
+  std::string case_sha256;
+  std::map<double, Measures> runs;
+};
+using Scenes = std::map<CaseId, SceneRuns>;
+
+Measures measures_of(const RunResult& result, const JsonRecord& record) {
+  Measures measures{};
+  if (result.failure) return measures;
+  for (std::size_t i = 0; i < measures.size(); ++i) measures[i] = record.number(measure_names[i], -1, 1);
+  return measures;
+}
+
+Scenes scenes_of(const Contestant& contestant) {
+  Scenes scenes;
+  for_each_result(contestant.results, [&](const RunResult& result, const JsonRecord& record) {
+    const bool is_unscored = result.failure && result.failure->of == FailureOf::scene;
+    if (result.run.method != contestant.method || is_unscored) return;
+    SceneRuns& scene = scenes[result.run.scene];
+    scene.case_sha256 = result.case_sha256;
+    scene.runs[result.run.ratio] = measures_of(result, record);
+  });
+  return scenes;
+}
+
+/// The means of a scene over the ratios that both sides have.
+struct Pair {
+  CaseId scene;
+  Measures baseline;
+  Measures other;
+};
+
+void add(Measures& sum, const Measures& measures) {
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += measures[i];
+}
+
+void divide(Measures& sum, std::size_t count) {
+  for (double& value : sum) value /= static_cast<double>(count);
+}
+
+std::optional<Pair> paired(const CaseId& id, const SceneRuns& baseline, const SceneRuns& other) {
+  Pair pair{id, {}, {}};
+  std::size_t count = 0;
+  for (const auto& [ratio, measures] : baseline.runs) {
+    const auto found = other.runs.find(ratio);
+    if (found == other.runs.end()) continue;
+    add(pair.baseline, measures);
+    add(pair.other, found->second);
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  divide(pair.baseline, count);
+  divide(pair.other, count);
+  return pair;
+}
+
+std::size_t count_runs(const Scenes& scenes) {
+  std::size_t count = 0;
+  for (const auto& [id, scene] : scenes) count += scene.runs.size();
+  return count;
+}
+
+std::size_t count_common_runs(const SceneRuns& a, const SceneRuns& b) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(a.runs, [&](const auto& run) { return b.runs.contains(run.first); }));
+}
+
+Measures mean(const std::vector<Pair>& pairs, Measures Pair::*side) {
+  Measures mean{};
+  for (const Pair& pair : pairs) add(mean, pair.*side);
+  divide(mean, pairs.size());
+  return mean;
+}
+
+std::vector<Measures> differences_of(const std::vector<Pair>& pairs) {
+  std::vector<Measures> differences;
+  differences.reserve(pairs.size());
+  for (const Pair& pair : pairs) {
+    Measures& difference = differences.emplace_back(pair.other);
+    for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= pair.baseline[i];
+  }
+  return differences;
+}
+
+// The mean differences of scenes drawn with replacement, as many as there are, again and again.
+std::vector<Measures> resampled_means(const std::vector<Measures>& differences) {
+  constexpr std::size_t resamples = 2000;
+  constexpr std::uint64_t seed = 1;
+  Rng rng(seed);
+  const int last = static_cast<int>(differences.size()) - 1;
+  std::vector<Measures> means(resamples);
+  for (Measures& mean : means) {
+    for (std::size_t i = 0; i < differences.size(); ++i)
+      add(mean, differences[static_cast<std::size_t>(uniform_integer(rng, 0, last))]);
+    divide(mean, differences.size());
+  }
+  return means;
+}
+
+// The value below which this share of them lies.
+double percentile(const std::vector<Measures>& means, std::size_t measure, double share) {
+  std::vector<double> values;
+  values.reserve(means.size());
+  for (const Measures& mean : means) values.push_back(mean[measure]);
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+}
+
+std::vector<MeasureDifference> measure_differences(const std::vector<Pair>& pairs) {
+  const Measures baseline = mean(pairs, &Pair::baseline);
+  const Measures other = mean(pairs, &Pair::other);
+  const std::vector<Measures> means = resampled_means(differences_of(pairs));
+  std::vector<MeasureDifference> differences;
+  for (std::size_t i = 0; i < measure_names.size(); ++i) {
+    constexpr double tail = 0.025;
+    differences.push_back({measure_names[i], baseline[i], other[i], other[i] - baseline[i],
+                           percentile(means, i, tail), percentile(means, i, 1 - tail)});
+  }
+  return differences;
+}
+
+// Those for which `is_wanted` holds of the difference, the greatest first.
+template <typename IsWanted>
+std::vector<SceneDifference> scenes_that_differ(const std::vector<Pair>& pairs, const IsWanted& is_wanted) {
+  std::vector<SceneDifference> scenes;
+  for (const Pair& pair : pairs) {
+    const SceneDifference scene{pair.scene, pair.baseline.front(), pair.other.front()};
+    if (is_wanted(scene.difference())) scenes.push_back(scene);
+  }
+  std::ranges::stable_sort(scenes, std::ranges::greater(),
+                           [](const SceneDifference& scene) { return std::abs(scene.difference()); });
+  return scenes;
+}
+
+JsonRecord experiment_in(const fs::path& directory) {
+  const fs::path file = directory / experiment_name;
+  return {read_file(file), file.string(), 0};
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+using Pairs = std::vector<std::pair<Contestant, Contestant>>;
+
+Pairs pairs_within(const fs::path& results, const std::optional<std::string>& baseline) {
+  const std::vector<std::string> methods = experiment_in(results).texts("methods");
+  const std::string first = baseline.value_or(methods.empty() ? "" : methods.front());
+  if (!has(methods, first))
+    throw InputError({results.string(), 0, "baseline"}, excerpt(first), "one of its methods");
+  Pairs pairs;
+  for (const std::string& method : methods) {
+    if (method != first) pairs.push_back({{results, first}, {results, method}});
+  }
+  return pairs;
+}
+
+// With that of a name, or all of the first directory's.
+Pairs pairs_between(const fs::path& results, const fs::path& other,
+                    const std::optional<std::string>& baseline) {
+  const JsonRecord experiment = experiment_in(results);
+  const JsonRecord its_experiment = experiment_in(other);
+  if (experiment.text("recipe_sha256") != its_experiment.text("recipe_sha256"))
+    throw InputError({other.string(), 0, "recipe_sha256"}, "results of another dataset");
+  const std::vector<std::string> methods = experiment.texts("methods");
+  const std::vector<std::string> its_methods = its_experiment.texts("methods");
+  Pairs pairs;
+  for (const std::string& method : methods) {
+    const bool is_wanted = !baseline || method == *baseline;
+    if (is_wanted && has(its_methods, method)) pairs.push_back({{results, method}, {other, method}});
+  }
+  if (pairs.empty() && methods.size() == 1 && its_methods.size() == 1)
+    pairs.push_back({{results, methods.front()}, {other, its_methods.front()}});
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<std::pair<Contestant, Contestant>> pairs_to_compare(const std::vector<fs::path>& results,
+                                                                const std::optional<std::string>& baseline) {
+  Pairs pairs;
+  if (results.size() == 1) pairs = pairs_within(results.front(), baseline);
+  for (std::size_t i = 1; i < results.size(); ++i) {
+    const Pairs more = pairs_between(results.front(), results[i], baseline);
+    pairs.insert(pairs.end(), more.begin(), more.end());
+  }
+  if (pairs.empty()) throw InputError({results.front().string(), 0, ""}, "no two methods to compare");
+  return pairs;
+}
+
+Comparison compare(const Contestant& baseline, const Contestant& other) {
+  Comparison comparison{.baseline = baseline, .other = other};
+  const Scenes scenes = scenes_of(baseline);
+  const Scenes other_scenes = scenes_of(other);
+  std::vector<Pair> pairs;
+  std::size_t common_runs = 0;
+  for (const auto& [id, scene] : scenes) {
+    const auto found = other_scenes.find(id);
+    if (found == other_scenes.end()) continue;
+    if (scene.case_sha256 != found->second.case_sha256)
+      throw InputError({other.results.string(), 0, name_of(id)},
+                       "another scene than in " + baseline.results.string());
+    common_runs += count_common_runs(scene, found->second);
+    if (const auto pair = paired(id, scene, found->second)) pairs.push_back(*pair);
+  }
+  if (pairs.empty())
+    throw InputError({other.results.string(), 0, other.method},
+                     "no scene in common with " + baseline.method + " in " + baseline.results.string());
+  comparison.scenes = pairs.size();
+  comparison.unpaired = count_runs(scenes) + count_runs(other_scenes) - 2 * common_runs;
+  comparison.measures = measure_differences(pairs);
+  comparison.better = scenes_that_differ(pairs, [](double difference) { return difference > 0; });
+  comparison.worse = scenes_that_differ(pairs, [](double difference) { return difference < 0; });
+  return comparison;
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "tanglebin/experiment/run.hpp"
+
+namespace tanglebin {
+
+/// What an entry made of a case.
+struct Modelled {
+  Model model;
+  bool has_tubes = true;                       ///< false if it gave labels only
+  std::optional<double> seconds{};             ///< wall clock, modelling alone; none if the labels existed
+  std::optional<std::string> labels_sha256{};  ///< of the files of labels that existed
+};
+
+/// Models a run's case by an entry. Of a command or of labels that exist, Model::filtered are the points that
+/// the built-in methods with default settings are scored on; if there are tubes but no labels, the labels are
+/// those of the nearest tubes, as by the built-in methods. `scratch` is a directory for a command's files.
+/// Throws InputError if the entry cannot model the case.
+Modelled model_by(const Entry& entry, const KnownScene& known, const CaseData& data, const RunId& run,
+                  const ExperimentSettings& settings, const std::filesystem::path& scratch);
+
+/// The labels and tubes of a case in a LabelsDirectory, at a ratio.
+struct FoundLabels {
+  std::vector<std::int32_t> labels;  ///< for each point of the case's cloud; empty if there are tubes only
+  std::optional<std::vector<Tube>> tubes;
+  std::string sha256;  ///< of the files
+};
+
+/// Labels are in A10/plys/1.ply, A10/pcds/1.pcd, A10/labels/1.npy or A10/labels/1.txt, tubes in
+/// A10/tube_configurations/1.txt, as in a dataset. Throws InputError if there are neither, and for what
+/// cannot be read.
+FoundLabels find_labels(const LabelsDirectory& directory, const CaseId& id, double ratio,
+                        const PointCloud& cloud);
+
+/// The checksum of the files that find_labels() would read; empty if there are none.
+std::string labels_sha256(const LabelsDirectory& directory, const CaseId& id, double ratio);
+
+}  // namespace tanglebin

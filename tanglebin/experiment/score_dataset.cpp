@@ -1,0 +1,51 @@
+#include "tanglebin/experiment/score_dataset.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/verify_case.hpp"
+#include "tanglebin/experiment/modelled.hpp"
+
+namespace tanglebin {
+
+SceneScore score_scene(const Dataset& dataset, const CaseId& id, const LabelsDirectory& labels) {
+  const CaseData data = read_case(dataset, id);
+  SceneScore scene{.scene = id};
+  if (std::ranges::none_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; })) {
+    scene.failure = {FailureOf::scene, "no point of the cloud is on a tube"};
+    return scene;
+  }
+  try {
+    const Entry entry{"labels", labels};
+    const KnownScene known = known_scene(recipe_of(dataset, id), id);
+    Modelled modelled = model_by(entry, known, data, {entry.name, id, 1}, {.ratios = {1}}, {});
+    modelled.model.filtered.resize(data.cloud.points.size());
+    std::iota(modelled.model.filtered.begin(), modelled.model.filtered.end(), std::size_t{0});
+    scene.score = score_model(data, modelled.model, modelled.has_tubes);
+  } catch (const InputError& error) {
+    scene.failure = {FailureOf::method, complaint_of(error)};
+  }
+  return scene;
+}
+
+void add(std::vector<MeanScore>& means, const SceneScore& scene) {
+  if (scene.failure && scene.failure->of == FailureOf::scene) return;
+  const CaseId& id = scene.scene;
+  auto mean = std::ranges::find_if(
+      means, [&id](const MeanScore& other) { return other.set == id.set && other.tubes == id.tubes; });
+  if (mean == means.end()) mean = means.insert(mean, {.set = id.set, .tubes = id.tubes});
+  ++mean->scenes;
+  if (!scene.score) ++mean->failed;
+  const auto include = [&](double& mean_value, double value) {
+    mean_value += (value - mean_value) / static_cast<double>(mean->scenes);
+  };
+  const Score score = scene.score ? scene.score->labels : Score{};
+  include(mean->micro_recall, score.micro_recall);
+  include(mean->mean_iou, score.mean_iou);
+  include(mean->f1, score.detection.f1);
+  include(mean->panoptic_quality, score.detection.panoptic_quality);
+  include(mean->adjusted_rand_index, score.adjusted_rand_index);
+}
+
+}  // namespace tanglebin

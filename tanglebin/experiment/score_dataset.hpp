@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tanglebin/experiment/run.hpp"
+#include "tanglebin/experiment/run_failure.hpp"
+
+namespace tanglebin {
+
+/// The score of one scene's labels.
+struct SceneScore {
+  CaseId scene;
+  std::optional<ModelScore> score{};  ///< of all points on tubes; none if it failed
+  std::optional<RunFailure> failure{};
+};
+
+/// Scores the labels of a case in a directory (find_labels()). A case without labels or with such that cannot
+/// be read has a failure. Throws InputError as read_case() does.
+SceneScore score_scene(const Dataset& dataset, const CaseId& id, const LabelsDirectory& labels);
+
+/// The means over the scenes of a set with the same number of tubes. A scene that failed counts as one in
+/// which nothing was found; one without a visible tube does not count.
+struct MeanScore {
+  std::string set;
+  int tubes;
+  std::size_t scenes = 0;
+  std::size_t failed = 0;  ///< of these
+  double micro_recall = 0;
+  double mean_iou = 0;
+  double f1 = 0;
+  double panoptic_quality = 0;
+  double adjusted_rand_index = 0;
+};
+
+/// Adds a scene to the means, which are in order of appearance.
+void add(std::vector<MeanScore>& means, const SceneScore& scene);
+
+}  // namespace tanglebin

@@ -1,0 +1,36 @@
+#include "tanglebin/report/model_again.hpp"
+
+#include <system_error>
+#include <variant>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/experiment/summary.hpp"
+#include "tanglebin/io/safe_file.hpp"
+
+namespace tanglebin {
+
+ModelAgain::ModelAgain(const std::filesystem::path& results, const Dataset& dataset,
+                       const ExperimentSettings& settings)
+    : dataset_(dataset), settings_(settings), scratch_(results / ".pictures.unfinished") {
+  std::filesystem::remove_all(scratch_);
+  make_directories(scratch_);
+}
+
+ModelAgain::~ModelAgain() {
+  std::error_code ignored;
+  std::filesystem::remove_all(scratch_, ignored);
+}
+
+std::optional<Model> ModelAgain::operator()(const Entry& entry, const CaseId& id,
+                                            const CaseData& data) const {
+  const RunId run{entry.name, id, ratio_to_show(settings_.ratios)};
+  const KnownScene known = known_scene(recipe_of(dataset_, id), data, id, settings_.scene);
+  try {
+    return model_by(entry, known, data, run, settings_, scratch_).model;
+  } catch (const InputError&) {
+    if (std::holds_alternative<Method>(entry.what)) throw;
+    return std::nullopt;
+  }
+}
+
+}  // namespace tanglebin

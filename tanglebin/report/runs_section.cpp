@@ -1,0 +1,66 @@
+// Every run, to sort, filter and plot.
+#include <fmt/format.h>
+
+#include <map>
+#include <tuple>
+
+#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/report/html.hpp"
+#include "tanglebin/report/script.hpp"
+#include "tanglebin/report/sections.hpp"
+#include "tanglebin/report/text.hpp"
+
+namespace tanglebin {
+namespace {
+
+auto key_of(const RunKey& run) {
+  return std::tuple(run.id.set, run.id.tubes, run.id.number, run.method, run.ratio);
+}
+
+/// The runs as columns: a list of values for each name, with null where a run has none.
+Json columns_of(const Results& results) {
+  std::map<decltype(key_of({})), double> seconds;
+  for (const RunTime& time : results.times) seconds[key_of(time.run)] = time.seconds;
+  Json columns;
+  for (const RunScore& score : results.scores) {
+    const RunKey& run = score.run;
+    columns["set"].push_back(run.id.set);
+    columns["tubes"].push_back(run.id.tubes);
+    columns["case"].push_back(run.id.number);
+    columns["method"].push_back(run.method);
+    columns["ratio"].push_back(run.ratio);
+    columns["micro_recall"].push_back(score.micro_recall);
+    columns["mean_iou"].push_back(score.mean_iou);
+    columns["f1"].push_back(score.f1);
+    columns["panoptic_quality"].push_back(score.panoptic_quality);
+    columns["adjusted_rand_index"].push_back(score.adjusted_rand_index);
+    columns["centre_line_error"].push_back(score.centre_line_error ? Json(*score.centre_line_error) : Json());
+    columns["joins_missed"].push_back(score.true_joins - score.joins_found);
+    columns["joins_wrong"].push_back(score.joins_made - score.joins_found);
+    const auto time = seconds.find(key_of(run));
+    columns["seconds"].push_back(time == seconds.end() ? Json() : Json(time->second));
+    columns["failed"].push_back(!score.failure.empty());
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::string all_runs(const Results& results) {
+  constexpr const char* heading = "All runs";
+  if (results.scores.empty()) {
+    return section_html("runs", heading,
+                        paragraph("missing", "The results have no scores (<code>results.jsonl</code>)."));
+  }
+  const std::string note = paragraph(
+      "note",
+      "Each row is a run: a case, a method and a downsampling ratio. Choose what to plot, choose which runs "
+      "count, and sort by any column. A failed run counts as one that found nothing.");
+  const std::string without =
+      paragraph("note", "This needs JavaScript. <code>results.jsonl</code> has the same numbers.");
+  return section_html("runs", heading,
+                      note + fmt::format("<div class=\"runs\">{}<div class=\"instead\">{}</div></div>\n",
+                                         json_script(columns_of(results).dump()), without));
+}
+
+}  // namespace tanglebin

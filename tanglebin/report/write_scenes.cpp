@@ -1,0 +1,135 @@
+#include "tanglebin/report/write_scenes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "tanglebin/base/picked.hpp"
+#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/report/model_again.hpp"
+#include "tanglebin/report/scene_view.hpp"
+#include "tanglebin/report/text.hpp"
+#include "tanglebin/score/score_clouds.hpp"
+
+namespace tanglebin {
+namespace {
+
+/// A case by how much it is to be shown: the smaller, the more.
+struct Ranked {
+  CaseId id;
+  double rank;
+};
+
+std::vector<Ranked> ranked_by_recall(const std::vector<ScoredCase>& scores) {
+  std::vector<Ranked> cases;
+  cases.reserve(scores.size());
+  for (const auto& [micro_recall, id] : scores) cases.push_back({id, micro_recall});
+  return cases;
+}
+
+std::vector<Ranked> ranked_by_difference(const ResultsSummary& results, const std::vector<Entry>& methods) {
+  std::map<CaseId, std::pair<double, double>> extremes;
+  for (const Entry& method : methods) {
+    for (const auto& [micro_recall, id] : results.scores(method.name)) {
+      auto& [least, most] = extremes.try_emplace(id, micro_recall, micro_recall).first->second;
+      least = std::min(least, micro_recall);
+      most = std::max(most, micro_recall);
+    }
+  }
+  std::vector<Ranked> cases;
+  for (const auto& [id, range] : extremes) {
+    if (range.first < range.second) cases.push_back({id, range.first - range.second});
+  }
+  return cases;
+}
+
+void add_first(std::vector<Ranked> cases, std::size_t count, const std::string& reason,
+               std::vector<SceneToShow>& scenes) {
+  std::ranges::stable_sort(cases, {}, &Ranked::rank);
+  cases.resize(std::min(cases.size(), count));
+  for (const Ranked& ranked : cases) {
+    auto scene = std::ranges::find(scenes, ranked.id, &SceneToShow::id);
+    if (scene == scenes.end()) scene = scenes.insert(scene, {ranked.id, {}});
+    scene->reasons.push_back(reason);
+  }
+}
+
+/// The parts of a case that a method scored, and what it found there.
+class ShownCase {
+public:
+  ShownCase(const Dataset& dataset, const SceneToShow& scene, double ratio)
+      : id_(scene.id),
+        data_(read_case(dataset, scene.id)),
+        scene_{.name = fmt::format("{}, ratio {} ({})", name_of(scene.id), ratio_text(ratio),
+                                   fmt::join(scene.reasons, ", ")),
+               .cloud = {},
+               .truth = {},
+               .found = {},
+               .support = {.bin = recipe_of(dataset, scene.id).bin}} {}
+
+  /// The first method's filter chooses the points. The others' are the same, unless they were set apart.
+  void add(const Entry& method, const ModelAgain& model_again) {
+    const std::optional<Model> model = model_again(method, id_, data_);
+    if (!model) return;
+    if (!scene_.truth) choose_points(model->filtered);
+    scene_.found.push_back(
+        {.name = method.name, .labels = picked(model->labels, shown_), .tubes = model->tubes});
+  }
+
+  bool is_empty() const { return scene_.found.empty(); }
+
+  std::string json() const { return scene_json(scene_, most_points_of_results); }
+
+private:
+  void choose_points(const std::vector<std::size_t>& filtered) {
+    shown_ = filtered;
+    scene_.cloud.points = picked(data_.cloud.points, shown_);
+    scene_.cloud.width = shown_.size();
+    scene_.truth = {.name = "truth",
+                    .labels = picked(truth_labels(data_.cloud, data_.cloud_file), shown_),
+                    .tubes = data_.tubes};
+  }
+
+  CaseId id_;
+  CaseData data_;
+  ViewedScene scene_;
+  std::vector<std::size_t> shown_;
+};
+
+bool has_score(const std::vector<ScoredCase>& scores, const CaseId& id) {
+  return std::ranges::find(scores, id, &ScoredCase::scene) != scores.end();
+}
+
+}  // namespace
+
+std::vector<SceneToShow> scenes_to_show(const ResultsSummary& results, const std::vector<Entry>& methods,
+                                        std::size_t count) {
+  std::vector<SceneToShow> scenes;
+  for (const Entry& method : methods) {
+    add_first(ranked_by_recall(results.scores(method.name)), count, "worst of " + method.name, scenes);
+  }
+  add_first(ranked_by_difference(results, methods), count, "methods differ", scenes);
+  return scenes;
+}
+
+void write_scenes(const std::filesystem::path& directory, const Dataset& dataset,
+                  const ExperimentSettings& settings, std::size_t count) {
+  const ResultsSummary results = summary_of(directory, settings.ratios);
+  const ModelAgain model_again(directory, dataset, settings);
+  std::string lines;
+  for (const SceneToShow& scene : scenes_to_show(results, settings.methods, count)) {
+    ShownCase shown(dataset, scene, results.ratio());
+    for (const Entry& method : settings.methods) {
+      if (has_score(results.scores(method.name), scene.id)) shown.add(method, model_again);
+    }
+    if (!shown.is_empty()) lines += shown.json() + '\n';
+  }
+  write_file(directory / "scenes.jsonl", lines);
+}
+
+}  // namespace tanglebin
