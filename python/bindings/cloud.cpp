@@ -27,7 +27,6 @@
 namespace tanglebin::python {
 namespace {
 
-namespace doc = tanglebin::doc::cloud;
 namespace io = tanglebin::doc::io;
 namespace fs = std::filesystem;
 
@@ -130,7 +129,7 @@ std::vector<Eigen::Vector3f> normals_of(const FloatArray& array) {
   return vectors_of(array, "normals");
 }
 
-py::tuple state_of(const py::object& self) {
+py::tuple cloud_state(const py::object& self) {
   const auto& cloud = self.cast<const PointCloud&>();
   const auto organized = [&](const char* name) -> py::object {
     const py::object array = self.attr(name);
@@ -148,7 +147,7 @@ PointCloud cloud_from(const py::tuple& state) {
 }
 
 void bind_point_cloud(py::module_& module) {
-  py::class_<PointCloud>(module, "PointCloud", doc::PointCloud)
+  py::class_<PointCloud>(module, "PointCloud", doc::cloud::PointCloud)
       .def(py::init(&cloud_of), py::arg("points"), py::arg("labels") = py::none(),
            py::arg("colors") = py::none(), py::arg("normals") = py::none(),
            py::arg("intensities") = py::none(), py::arg("mixed") = py::none(),
@@ -191,8 +190,8 @@ void bind_point_cloud(py::module_& module) {
           [](PointCloud& cloud, const std::optional<py::array_t<double>>& pose) {
             cloud.viewpoint = pose ? std::optional(pose_of(*pose, "viewpoint")) : std::nullopt;
           },
-          doc::PointCloud_viewpoint)
-      .def(py::pickle(&state_of, &cloud_from))
+          doc::cloud::PointCloud_viewpoint)
+      .def(py::pickle(&cloud_state, &cloud_from))
       .def("__repr__", [](const PointCloud& cloud) {
         return fmt::format("<PointCloud of {} x {} points>", cloud.height, cloud.width);
       });
@@ -205,7 +204,7 @@ void bind_point_cloud(py::module_& module) {
                            fmt::format("one for each of {} points", cloud.points.size()));
         return labelled(cloud, std::move(values));
       },
-      py::arg("cloud"), py::arg("labels"), doc::labelled);
+      py::arg("cloud"), py::arg("labels"), doc::cloud::labelled);
   module.def(
       "label_colors",
       [](int tubes) {
@@ -214,13 +213,13 @@ void bind_point_cloud(py::module_& module) {
         std::memcpy(array.mutable_data(), colors.data(), colors.size() * sizeof(Color));
         return array;
       },
-      py::arg("tubes"), doc::label_colors);
+      py::arg("tubes"), doc::cloud::label_colors);
   module.def(
       "cloud_from_depths",
       [](const FloatArray& depths, const Intrinsics& intrinsics) {
         return cloud_from_depths(depths_of(depths, "depths"), intrinsics);
       },
-      py::arg("depths"), py::arg("intrinsics"), doc::cloud_from_depths);
+      py::arg("depths"), py::arg("intrinsics"), doc::cloud::cloud_from_depths);
 }
 
 // Writes what `write` puts into a stream to a file, whole or not at all.

@@ -24,7 +24,6 @@
 namespace tanglebin::python {
 namespace {
 
-namespace doc = tanglebin::doc::dataset;
 namespace fs = std::filesystem;
 
 /// The finished cases of a dataset that is open.
@@ -98,28 +97,28 @@ FillSummary ended(FillSummary summary, const Progress& progress) {
 }
 
 void bind_runs(py::module_& module) {
-  py::class_<FailedCase>(module, "FailedCase", doc::FailedCase)
+  py::class_<FailedCase>(module, "FailedCase", doc::dataset::FailedCase)
       .def_readonly("id", &FailedCase::id, "the case")
-      .def_readonly("seed", &FailedCase::seed, doc::FailedCase_seed)
+      .def_readonly("seed", &FailedCase::seed, doc::dataset::FailedCase_seed)
       .def_readonly("reason", &FailedCase::reason, "why");
-  py::class_<RunProgress>(module, "RunProgress", doc::RunProgress)
-      .def_readonly("wanted", &RunProgress::wanted, doc::RunProgress_wanted)
-      .def_readonly("found", &RunProgress::found, doc::RunProgress_found)
-      .def_readonly("made", &RunProgress::made, doc::RunProgress_made)
-      .def_readonly("failed", &RunProgress::failed, doc::RunProgress_failed)
-      .def_readonly("rejected", &RunProgress::rejected, doc::RunProgress_rejected);
-  py::class_<DatasetSummary>(module, "DatasetSummary", doc::DatasetSummary)
-      .def_readonly("cases", &DatasetSummary::cases, doc::DatasetSummary_cases)
-      .def_readonly("recipe_cases", &DatasetSummary::recipe_cases, doc::DatasetSummary_recipe_cases)
-      .def_readonly("failed", &DatasetSummary::failed, doc::DatasetSummary_failed)
-      .def_readonly("files", &DatasetSummary::files, doc::DatasetSummary_files)
-      .def_readonly("digest", &DatasetSummary::digest, doc::DatasetSummary_digest)
+  py::class_<RunProgress>(module, "RunProgress", doc::dataset::RunProgress)
+      .def_readonly("wanted", &RunProgress::wanted, doc::dataset::RunProgress_wanted)
+      .def_readonly("found", &RunProgress::found, doc::dataset::RunProgress_found)
+      .def_readonly("made", &RunProgress::made, doc::dataset::RunProgress_made)
+      .def_readonly("failed", &RunProgress::failed, doc::dataset::RunProgress_failed)
+      .def_readonly("rejected", &RunProgress::rejected, doc::dataset::RunProgress_rejected);
+  py::class_<DatasetSummary>(module, "DatasetSummary", doc::dataset::DatasetSummary)
+      .def_readonly("cases", &DatasetSummary::cases, doc::dataset::DatasetSummary_cases)
+      .def_readonly("recipe_cases", &DatasetSummary::recipe_cases, doc::dataset::DatasetSummary_recipe_cases)
+      .def_readonly("failed", &DatasetSummary::failed, doc::dataset::DatasetSummary_failed)
+      .def_readonly("files", &DatasetSummary::files, doc::dataset::DatasetSummary_files)
+      .def_readonly("digest", &DatasetSummary::digest, doc::dataset::DatasetSummary_digest)
       .def_property_readonly("is_complete", &DatasetSummary::is_complete,
                              "whether it has all of the recipe's cases");
-  py::class_<FillSummary>(module, "FillSummary", doc::FillSummary)
-      .def_readonly("progress", &FillSummary::progress, doc::RunProgress)
-      .def_readonly("failed", &FillSummary::failed, doc::FillSummary_failed)
-      .def_readonly("dataset", &FillSummary::dataset, doc::FillSummary_dataset)
+  py::class_<FillSummary>(module, "FillSummary", doc::dataset::FillSummary)
+      .def_readonly("progress", &FillSummary::progress, doc::dataset::RunProgress)
+      .def_readonly("failed", &FillSummary::failed, doc::dataset::FillSummary_failed)
+      .def_readonly("dataset", &FillSummary::dataset, doc::dataset::FillSummary_dataset)
       .def_property_readonly("is_complete", &FillSummary::is_complete,
                              "whether all cases asked for are there");
   const char* const note =
@@ -141,7 +140,7 @@ void bind_runs(py::module_& module) {
                      progress);
       },
       py::arg("recipe"), py::arg("directory"), py::arg("wanted") = py::none(), py::arg("jobs") = 1,
-      py::arg("progress") = py::none(), also(doc::generate_dataset, note).c_str());
+      py::arg("progress") = py::none(), also(doc::dataset::generate_dataset, note).c_str());
   module.def(
       "merge_datasets",
       [](const std::vector<fs::path>& parts, const fs::path& directory, int jobs, const Progress& progress) {
@@ -152,19 +151,19 @@ void bind_runs(py::module_& module) {
                      progress);
       },
       py::arg("parts"), py::arg("directory"), py::arg("jobs") = 1, py::arg("progress") = py::none(),
-      also(doc::merge_datasets, note).c_str());
+      also(doc::dataset::merge_datasets, note).c_str());
 }
 
 void bind_verify(py::module_& module) {
-  py::class_<DatasetFault>(module, "DatasetFault", doc::DatasetFault)
-      .def_readonly("where", &DatasetFault::where, doc::DatasetFault_where)
+  py::class_<DatasetFault>(module, "DatasetFault", doc::dataset::DatasetFault)
+      .def_readonly("where", &DatasetFault::where, doc::dataset::DatasetFault_where)
       .def_readonly("what", &DatasetFault::what, "what is wrong");
-  py::class_<VerifySummary>(module, "VerifySummary", doc::VerifySummary)
-      .def_readonly("cases", &VerifySummary::cases, doc::VerifySummary_cases)
-      .def_readonly("digest", &VerifySummary::digest, doc::VerifySummary_digest)
-      .def_readonly("faults", &VerifySummary::faults, doc::VerifySummary_faults)
-      .def_readonly("notes", &VerifySummary::notes, doc::VerifySummary_notes)
-      .def_readonly("broken", &VerifySummary::broken, doc::VerifySummary_broken);
+  py::class_<VerifySummary>(module, "VerifySummary", doc::dataset::VerifySummary)
+      .def_readonly("cases", &VerifySummary::cases, doc::dataset::VerifySummary_cases)
+      .def_readonly("digest", &VerifySummary::digest, doc::dataset::VerifySummary_digest)
+      .def_readonly("faults", &VerifySummary::faults, doc::dataset::VerifySummary_faults)
+      .def_readonly("notes", &VerifySummary::notes, doc::dataset::VerifySummary_notes)
+      .def_readonly("broken", &VerifySummary::broken, doc::dataset::VerifySummary_broken);
   module.def(
       "verify_dataset",
       [](const fs::path& directory, int jobs, bool rest, const std::optional<std::vector<CaseId>>& wanted,
@@ -176,7 +175,7 @@ void bind_verify(py::module_& module) {
         return summary;
       },
       py::arg("directory"), py::arg("jobs") = 1, py::arg("rest") = false, py::arg("wanted") = py::none(),
-      py::arg("progress") = py::none(), doc::verify_dataset);
+      py::arg("progress") = py::none(), doc::dataset::verify_dataset);
   module.def(
       "repair_dataset",
       [](const fs::path& directory, const VerifySummary& found, int jobs, const Progress& progress) {
@@ -187,24 +186,24 @@ void bind_verify(py::module_& module) {
                      progress);
       },
       py::arg("directory"), py::arg("found"), py::arg("jobs") = 1, py::arg("progress") = py::none(),
-      doc::repair_dataset);
+      doc::dataset::repair_dataset);
 }
 
 void bind_records(py::module_& module) {
-  py::class_<FileRecord>(module, "FileRecord", doc::FileRecord)
-      .def_readonly("path", &FileRecord::path, doc::FileRecord_path)
+  py::class_<FileRecord>(module, "FileRecord", doc::dataset::FileRecord)
+      .def_readonly("path", &FileRecord::path, doc::dataset::FileRecord_path)
       .def_readonly("bytes", &FileRecord::bytes, "its size")
       .def_readonly("sha256", &FileRecord::sha256, "its checksum");
-  py::class_<CaseRecord>(module, "CaseRecord", doc::CaseRecord)
+  py::class_<CaseRecord>(module, "CaseRecord", doc::dataset::CaseRecord)
       .def_readonly("id", &CaseRecord::id, "the case")
       .def_readonly("seed", &CaseRecord::seed, "of the successful attempt")
-      .def_readonly("simulated", &CaseRecord::simulated, doc::CaseRecord_simulated)
-      .def_readonly("largest_overlap", &CaseRecord::largest_overlap, doc::CaseRecord_largest_overlap)
-      .def_readonly("points", &CaseRecord::points, doc::CaseRecord_points)
+      .def_readonly("simulated", &CaseRecord::simulated, doc::dataset::CaseRecord_simulated)
+      .def_readonly("largest_overlap", &CaseRecord::largest_overlap, doc::dataset::CaseRecord_largest_overlap)
+      .def_readonly("points", &CaseRecord::points, doc::dataset::CaseRecord_points)
       .def_readonly("rejections", &CaseRecord::rejections, "the attempts before")
       .def_readonly("files", &CaseRecord::files, "its files")
       .def_property_readonly(
-          "json", [](const CaseRecord& record) { return to_json(record); }, doc::to_json);
+          "json", [](const CaseRecord& record) { return to_json(record); }, doc::dataset::to_json);
 }
 
 void bind_index(py::module_& module) {
@@ -224,10 +223,10 @@ void bind_index(py::module_& module) {
       .def_readonly("ids", &Index::ids, "the finished cases, in the recipe's order")
       .def(
           "record", [](const Index& index, const CaseId& id) { return index.dataset.catalogue.record(id); },
-          py::arg("id"), doc::Catalogue_record)
+          py::arg("id"), doc::dataset::Catalogue_record)
       .def(
           "recipe_of", [](const Index& index, const CaseId& id) { return recipe_of(index.dataset, id); },
-          py::arg("id"), doc::recipe_of)
+          py::arg("id"), doc::dataset::recipe_of)
       .def(
           "cloud",
           [](const Index& index, const CaseId& id, const std::string& scanner) {

@@ -19,8 +19,6 @@
 namespace tanglebin::python {
 namespace {
 
-namespace doc = tanglebin::doc::geometry;
-
 using Indices = std::vector<std::array<std::size_t, 2>>;
 
 std::vector<std::vector<std::size_t>> edges_at_nodes(const Tube& tube) {
@@ -121,7 +119,7 @@ Tube tube_of(const py::array_t<double, py::array::c_style | py::array::forcecast
   return tube;
 }
 
-py::tuple state_of(const Tube& tube) {
+py::tuple tube_state(const Tube& tube) {
   py::list nodes;
   for (const Node& node : tube.nodes)
     nodes.append(py::make_tuple(node.id, node.position.x(), node.position.y(), node.position.z()));
@@ -146,15 +144,15 @@ Tube tube_from(const py::tuple& state) {
 }
 
 void bind_tube(py::module_& module) {
-  py::class_<Tube>(module, "Tube", doc::Tube)
+  py::class_<Tube>(module, "Tube", doc::geometry::Tube)
       .def(py::init(&tube_of), py::arg("nodes"), py::arg("radius"), py::arg("id") = 1, py::arg("mass") = 0.0,
            py::arg("edges") = py::none(), py::arg("flat_ends") = false,
            "A tube along nodes (n x 3, m), a chain unless `edges` has the pairs of indices that are "
            "connected.")
-      .def_readwrite("id", &Tube::id, doc::Tube_id)
-      .def_readwrite("radius", &Tube::radius, doc::Tube_radius)
-      .def_readwrite("mass", &Tube::mass, doc::Tube_mass)
-      .def_readwrite("flat_ends", &Tube::flat_ends, doc::Tube_flat_ends)
+      .def_readwrite("id", &Tube::id, doc::geometry::Tube_id)
+      .def_readwrite("radius", &Tube::radius, doc::geometry::Tube_radius)
+      .def_readwrite("mass", &Tube::mass, doc::geometry::Tube_mass)
+      .def_readwrite("flat_ends", &Tube::flat_ends, doc::geometry::Tube_flat_ends)
       .def_property_readonly(
           "nodes",
           [](const py::object& self) {
@@ -169,7 +167,7 @@ void bind_tube(py::module_& module) {
             return view(nodes.empty() ? nullptr : &nodes.front().id, {signed_size(nodes.size())},
                         {sizeof(Node)}, self);
           },
-          doc::Node_id)
+          doc::geometry::Node_id)
       .def_property_readonly(
           "edges",
           [](const py::object& self) {
@@ -181,7 +179,7 @@ void bind_tube(py::module_& module) {
           "centre_lines", &centre_lines,
           "The centre line, m, world frame: an array k x 3 for each run of edges between ends and "
           "junctions, which is one for a chain. Copies.")
-      .def_property_readonly("length", &total_length, doc::total_length)
+      .def_property_readonly("length", &total_length, doc::geometry::total_length)
       .def(
           "transformed",
           [](Tube tube, const py::array_t<double>& motion) {
@@ -189,7 +187,7 @@ void bind_tube(py::module_& module) {
             return tube;
           },
           py::arg("motion"), "A copy of the tube, moved as a rigid body by a 4 x 4 matrix.")
-      .def(py::pickle(&state_of, &tube_from))
+      .def(py::pickle(&tube_state, &tube_from))
       .def("__repr__", [](const Tube& tube) {
         return fmt::format("<Tube {}: {} nodes, radius {} m, length {:.4g} m>", tube.id, tube.nodes.size(),
                            tube.radius, total_length(tube));
@@ -214,7 +212,7 @@ void bind_tube(py::module_& module) {
   module.def("mesh_of", &mesh_of, py::arg("tube"), tanglebin::doc::io::mesh_of);
 }
 
-py::tuple state_of(const Camera& camera) {
+py::tuple camera_state(const Camera& camera) {
   return py::make_tuple(camera.width, camera.height, camera.fx, camera.fy, camera.cx, camera.cy,
                         matrix_of(camera.pose));
 }
@@ -228,61 +226,61 @@ Camera camera_of(int width, int height, double fx, double fy, double cx, double 
 }
 
 void bind_camera(py::module_& module) {
-  py::class_<Intrinsics>(module, "Intrinsics", doc::Intrinsics)
+  py::class_<Intrinsics>(module, "Intrinsics", doc::geometry::Intrinsics)
       .def(py::init<int, int, double, double, double, double>(), py::arg("width"), py::arg("height"),
            py::arg("fx"), py::arg("fy"), py::arg("cx"), py::arg("cy"))
-      .def_readwrite("width", &Intrinsics::width, doc::Intrinsics_width)
-      .def_readwrite("height", &Intrinsics::height, doc::Intrinsics_height)
-      .def_readwrite("fx", &Intrinsics::fx, doc::Intrinsics_fx)
-      .def_readwrite("fy", &Intrinsics::fy, doc::Intrinsics_fx)
-      .def_readwrite("cx", &Intrinsics::cx, doc::Intrinsics_cx)
-      .def_readwrite("cy", &Intrinsics::cy, doc::Intrinsics_cx)
+      .def_readwrite("width", &Intrinsics::width, doc::geometry::Intrinsics_width)
+      .def_readwrite("height", &Intrinsics::height, doc::geometry::Intrinsics_height)
+      .def_readwrite("fx", &Intrinsics::fx, doc::geometry::Intrinsics_fx)
+      .def_readwrite("fy", &Intrinsics::fy, doc::geometry::Intrinsics_fx)
+      .def_readwrite("cx", &Intrinsics::cx, doc::geometry::Intrinsics_cx)
+      .def_readwrite("cy", &Intrinsics::cy, doc::geometry::Intrinsics_cx)
       .def(py::self == py::self);
-  py::class_<Camera>(module, "Camera", doc::Camera)
+  py::class_<Camera>(module, "Camera", doc::geometry::Camera)
       .def(py::init(&camera_of), py::arg("width"), py::arg("height"), py::arg("fx"), py::arg("fy"),
            py::arg("cx"), py::arg("cy"), py::arg("pose") = py::none())
-      .def_readwrite("width", &Camera::width, doc::Camera_width)
-      .def_readwrite("height", &Camera::height, doc::Camera_height)
-      .def_readwrite("fx", &Camera::fx, doc::Camera_fx)
-      .def_readwrite("fy", &Camera::fy, doc::Camera_fx)
-      .def_readwrite("cx", &Camera::cx, doc::Camera_cx)
-      .def_readwrite("cy", &Camera::cy, doc::Camera_cx)
+      .def_readwrite("width", &Camera::width, doc::geometry::Camera_width)
+      .def_readwrite("height", &Camera::height, doc::geometry::Camera_height)
+      .def_readwrite("fx", &Camera::fx, doc::geometry::Camera_fx)
+      .def_readwrite("fy", &Camera::fy, doc::geometry::Camera_fx)
+      .def_readwrite("cx", &Camera::cx, doc::geometry::Camera_cx)
+      .def_readwrite("cy", &Camera::cy, doc::geometry::Camera_cx)
       .def_property(
           "pose", [](const Camera& camera) { return matrix_of(camera.pose); },
           [](Camera& camera, const py::array_t<double>& pose) { camera.pose = pose_of(pose, "pose"); },
-          doc::Camera_pose)
-      .def_property_readonly("intrinsics", &intrinsics_of, doc::Intrinsics)
+          doc::geometry::Camera_pose)
+      .def_property_readonly("intrinsics", &intrinsics_of, doc::geometry::Intrinsics)
       .def(py::self == py::self)
-      .def(py::pickle([](const Camera& camera) { return state_of(camera); },
+      .def(py::pickle([](const Camera& camera) { return camera_state(camera); },
                       [](const py::tuple& state) {
                         return camera_of(state[0].cast<int>(), state[1].cast<int>(), state[2].cast<double>(),
                                          state[3].cast<double>(), state[4].cast<double>(),
                                          state[5].cast<double>(), state[6].cast<py::array_t<double>>());
                       }));
-  module.def("camera_preset", &camera_preset, py::arg("name"), doc::camera_preset);
+  module.def("camera_preset", &camera_preset, py::arg("name"), doc::geometry::camera_preset);
   module.def(
       "downward_camera",
       [](int width, int height, double focal_length_px, const py::array_t<double>& position) {
         return downward_camera(width, height, focal_length_px, vector_of(position, "position"));
       },
       py::arg("width"), py::arg("height"), py::arg("focal_length_px"), py::arg("position"),
-      doc::downward_camera);
+      doc::geometry::downward_camera);
   module.def("focal_length_from_hfov", &focal_length_from_hfov, py::arg("width"), py::arg("hfov"),
-             doc::focal_length_from_hfov);
+             doc::geometry::focal_length_from_hfov);
 }
 
 void bind_support(py::module_& module) {
-  py::class_<Bin>(module, "Bin", doc::Bin)
+  py::class_<Bin>(module, "Bin", doc::geometry::Bin)
       .def(py::init([](double length, double width, double height, double wall, double friction) {
              return Bin{length, width, height, wall, friction};
            }),
            py::arg("length") = Bin{}.length, py::arg("width") = Bin{}.width, py::arg("height") = Bin{}.height,
            py::arg("wall") = Bin{}.wall, py::arg("friction") = Bin{}.friction)
-      .def_readwrite("length", &Bin::length, doc::Bin_length)
-      .def_readwrite("width", &Bin::width, doc::Bin_width)
-      .def_readwrite("height", &Bin::height, doc::Bin_height)
-      .def_readwrite("wall", &Bin::wall, doc::Bin_wall)
-      .def_readwrite("friction", &Bin::friction, doc::Bin_friction)
+      .def_readwrite("length", &Bin::length, doc::geometry::Bin_length)
+      .def_readwrite("width", &Bin::width, doc::geometry::Bin_width)
+      .def_readwrite("height", &Bin::height, doc::geometry::Bin_height)
+      .def_readwrite("wall", &Bin::wall, doc::geometry::Bin_wall)
+      .def_readwrite("friction", &Bin::friction, doc::geometry::Bin_friction)
       .def(py::self == py::self)
       .def(py::pickle(
           [](const Bin& bin) {
@@ -292,9 +290,9 @@ void bind_support(py::module_& module) {
             return Bin{state[0].cast<double>(), state[1].cast<double>(), state[2].cast<double>(),
                        state[3].cast<double>(), state[4].cast<double>()};
           }));
-  module.def("bin_preset", &bin_preset, py::arg("name"), doc::bin_preset);
+  module.def("bin_preset", &bin_preset, py::arg("name"), doc::geometry::bin_preset);
 
-  py::class_<Support>(module, "Support", doc::Support)
+  py::class_<Support>(module, "Support", doc::geometry::Support)
       .def(py::init([](const std::string& shape, const Bin& bin,
                        const std::optional<py::array_t<double>>& pose, double margin) {
              Support support{.shape = shape_named(shape), .bin = bin, .margin = margin};
@@ -308,14 +306,14 @@ void bind_support(py::module_& module) {
           "shape", [](const Support& support) { return name_of(support.shape); },
           [](Support& support, const std::string& name) { support.shape = shape_named(name); },
           "\"bin\", \"plane\" or \"nothing\"")
-      .def_readwrite("bin", &Support::bin, doc::Support_bin)
+      .def_readwrite("bin", &Support::bin, doc::geometry::Support_bin)
       .def_property(
           "pose", [](const Support& support) { return matrix_of(support.pose); },
           [](Support& support, const py::array_t<double>& pose) {
             support.pose = pose_of(pose, "support.pose");
           },
-          doc::Support_pose)
-      .def_readwrite("margin", &Support::margin, doc::Support_margin);
+          doc::geometry::Support_pose)
+      .def_readwrite("margin", &Support::margin, doc::geometry::Support_margin);
 }
 
 }  // namespace

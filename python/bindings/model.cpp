@@ -11,8 +11,6 @@
 namespace tanglebin::python {
 namespace {
 
-namespace doc = tanglebin::doc::model;
-
 ModelSettings settings_of(const std::string& method, double ratio, std::uint64_t seed,
                           const std::map<std::string, double>& parameters) {
   ModelSettings settings;
@@ -25,18 +23,19 @@ ModelSettings settings_of(const std::string& method, double ratio, std::uint64_t
 }
 
 void bind_settings(py::module_& module) {
-  py::class_<ModelSettings>(module, "ModelSettings", doc::ModelSettings)
+  py::class_<ModelSettings>(module, "ModelSettings", doc::model::ModelSettings)
       .def(py::init(&settings_of), py::arg("method") = name_of(ModelSettings{}.method),
            py::arg("ratio") = 1.0, py::arg("seed") = 0,
            py::arg("parameters") = std::map<std::string, double>{},
            "The method is \"axis\" or \"paper\"; the parameters are keyed by their names, such as "
            "\"axis.vote.floor_margin\".")
       .def_property_readonly(
-          "method", [](const ModelSettings& settings) { return name_of(settings.method); }, doc::Method)
-      .def_readwrite("ratio", &ModelSettings::ratio, doc::ModelSettings_ratio)
-      .def_readwrite("seed", &ModelSettings::seed, doc::ModelSettings_seed)
-      .def_property_readonly("parameters", &parameters, doc::parameters)
-      .def_property_readonly("changed_parameters", &changed_parameters, doc::changed_parameters)
+          "method", [](const ModelSettings& settings) { return name_of(settings.method); },
+          doc::model::Method)
+      .def_readwrite("ratio", &ModelSettings::ratio, doc::model::ModelSettings_ratio)
+      .def_readwrite("seed", &ModelSettings::seed, doc::model::ModelSettings_seed)
+      .def_property_readonly("parameters", &parameters, doc::model::parameters)
+      .def_property_readonly("changed_parameters", &changed_parameters, doc::model::changed_parameters)
       .def(py::pickle(
           [](const ModelSettings& settings) {
             return py::make_tuple(name_of(settings.method), settings.ratio, settings.seed,
@@ -50,48 +49,48 @@ void bind_settings(py::module_& module) {
 }
 
 void bind_evidence(py::module_& module) {
-  py::class_<TubeJoin>(module, "TubeJoin", doc::TubeJoin)
+  py::class_<TubeJoin>(module, "TubeJoin", doc::model::TubeJoin)
       .def_property_readonly(
-          "from_point", [](const TubeJoin& join) { return array_of(join.from); }, doc::TubeJoin_from)
+          "from_point", [](const TubeJoin& join) { return array_of(join.from); }, doc::model::TubeJoin_from)
       .def_property_readonly(
-          "to_point", [](const TubeJoin& join) { return array_of(join.to); }, doc::TubeJoin_from)
-      .def_readonly("log_odds", &TubeJoin::log_odds, doc::TubeJoin_log_odds)
-      .def_readonly("margin", &TubeJoin::margin, doc::TubeJoin_margin);
-  py::class_<TubeEvidence>(module, "TubeEvidence", doc::TubeEvidence)
-      .def_readonly("kind", &TubeEvidence::kind, doc::TubeEvidence_kind)
-      .def_readonly("joins", &TubeEvidence::joins, doc::TubeEvidence_joins)
-      .def_readonly("points", &TubeEvidence::points, doc::TubeEvidence_points)
-      .def_readonly("residual", &TubeEvidence::residual, doc::TubeEvidence_residual)
-      .def_readonly("radius_error", &TubeEvidence::radius_error, doc::TubeEvidence_radius_error)
-      .def_readonly("length", &TubeEvidence::length, doc::TubeEvidence_length)
-      .def_readonly("visible_length", &TubeEvidence::visible_length, doc::TubeEvidence_visible_length)
-      .def_property_readonly("coverage", &TubeEvidence::coverage, doc::TubeEvidence_coverage)
+          "to_point", [](const TubeJoin& join) { return array_of(join.to); }, doc::model::TubeJoin_from)
+      .def_readonly("log_odds", &TubeJoin::log_odds, doc::model::TubeJoin_log_odds)
+      .def_readonly("margin", &TubeJoin::margin, doc::model::TubeJoin_margin);
+  py::class_<TubeEvidence>(module, "TubeEvidence", doc::model::TubeEvidence)
+      .def_readonly("kind", &TubeEvidence::kind, doc::model::TubeEvidence_kind)
+      .def_readonly("joins", &TubeEvidence::joins, doc::model::TubeEvidence_joins)
+      .def_readonly("points", &TubeEvidence::points, doc::model::TubeEvidence_points)
+      .def_readonly("residual", &TubeEvidence::residual, doc::model::TubeEvidence_residual)
+      .def_readonly("radius_error", &TubeEvidence::radius_error, doc::model::TubeEvidence_radius_error)
+      .def_readonly("length", &TubeEvidence::length, doc::model::TubeEvidence_length)
+      .def_readonly("visible_length", &TubeEvidence::visible_length, doc::model::TubeEvidence_visible_length)
+      .def_property_readonly("coverage", &TubeEvidence::coverage, doc::model::TubeEvidence_coverage)
       .def_property_readonly(
           "length_fit", [](const TubeEvidence& evidence) { return name_of(evidence.length_fit); },
-          doc::LengthFit)
-      .def_readonly("confidence", &TubeEvidence::confidence, doc::TubeEvidence_confidence);
-  py::class_<PointCounts>(module, "PointCounts", doc::PointCounts)
+          doc::model::LengthFit)
+      .def_readonly("confidence", &TubeEvidence::confidence, doc::model::TubeEvidence_confidence);
+  py::class_<PointCounts>(module, "PointCounts", doc::model::PointCounts)
       .def_readonly("all", &PointCounts::all, "points of the cloud")
-      .def_readonly("invalid", &PointCounts::invalid, doc::PointCounts_invalid)
-      .def_readonly("behind_camera", &PointCounts::behind_camera, doc::PointCounts_behind_camera)
-      .def_readonly("outside_image", &PointCounts::outside_image, doc::PointCounts_outside_image)
-      .def_readonly("below_support", &PointCounts::below_support, doc::PointCounts_below_support)
-      .def_readonly("cropped", &PointCounts::cropped, doc::PointCounts_cropped)
-      .def_readonly("on_support", &PointCounts::on_support, doc::PointCounts_on_support)
-      .def_readonly("on_tubes", &PointCounts::on_tubes, doc::PointCounts_on_tubes)
-      .def_readonly("near_support", &PointCounts::near_support, doc::PointCounts_near_support)
-      .def_readonly("unexplained", &PointCounts::unexplained, doc::PointCounts_unexplained);
-  py::class_<Finding>(module, "Finding", doc::Finding)
+      .def_readonly("invalid", &PointCounts::invalid, doc::model::PointCounts_invalid)
+      .def_readonly("behind_camera", &PointCounts::behind_camera, doc::model::PointCounts_behind_camera)
+      .def_readonly("outside_image", &PointCounts::outside_image, doc::model::PointCounts_outside_image)
+      .def_readonly("below_support", &PointCounts::below_support, doc::model::PointCounts_below_support)
+      .def_readonly("cropped", &PointCounts::cropped, doc::model::PointCounts_cropped)
+      .def_readonly("on_support", &PointCounts::on_support, doc::model::PointCounts_on_support)
+      .def_readonly("on_tubes", &PointCounts::on_tubes, doc::model::PointCounts_on_tubes)
+      .def_readonly("near_support", &PointCounts::near_support, doc::model::PointCounts_near_support)
+      .def_readonly("unexplained", &PointCounts::unexplained, doc::model::PointCounts_unexplained);
+  py::class_<Finding>(module, "Finding", doc::model::Finding)
       .def_property_readonly(
           "is_error", [](const Finding& finding) { return finding.severity == Finding::Severity::error; },
-          doc::Finding_Severity_error)
-      .def_readonly("code", &Finding::code, doc::Finding_code)
-      .def_readonly("message", &Finding::message, doc::Finding_message);
-  py::class_<Step>(module, "Step", doc::Step)
-      .def_readonly("name", &Step::name, doc::Step_name)
-      .def_readonly("seconds", &Step::seconds, doc::Step_seconds)
-      .def_readonly("count", &Step::count, doc::Step_count)
-      .def_readonly("of", &Step::of, doc::Step_of);
+          doc::model::Finding_Severity_error)
+      .def_readonly("code", &Finding::code, doc::model::Finding_code)
+      .def_readonly("message", &Finding::message, doc::model::Finding_message);
+  py::class_<Step>(module, "Step", doc::model::Step)
+      .def_readonly("name", &Step::name, doc::model::Step_name)
+      .def_readonly("seconds", &Step::seconds, doc::model::Step_seconds)
+      .def_readonly("count", &Step::count, doc::model::Step_count)
+      .def_readonly("of", &Step::of, doc::model::Step_of);
 }
 
 }  // namespace
@@ -99,27 +98,27 @@ void bind_evidence(py::module_& module) {
 void bind_model(py::module_& module) {
   bind_settings(module);
   bind_evidence(module);
-  py::class_<Model>(module, "Model", doc::Model)
-      .def_readonly("tubes", &Model::tubes, doc::Model_tubes)
+  py::class_<Model>(module, "Model", doc::model::Model)
+      .def_readonly("tubes", &Model::tubes, doc::model::Model_tubes)
       .def_property_readonly(
           "labels", [](const py::object& self) { return view(self.cast<Model&>().labels, self); },
-          doc::Model_labels)
+          doc::model::Model_labels)
       .def_property_readonly(
           "filtered", [](const py::object& self) { return view(self.cast<Model&>().filtered, self); },
-          doc::Model_filtered)
-      .def_readonly("steps", &Model::steps, doc::Model_steps)
-      .def_readonly("evidence", &Model::evidence, doc::Model_evidence)
-      .def_readonly("counts", &Model::counts, doc::PointCounts)
-      .def_readonly("findings", &Model::findings, doc::Model_findings)
-      .def_property_readonly("is_refused", &Model::is_refused, doc::Model_is_refused);
+          doc::model::Model_filtered)
+      .def_readonly("steps", &Model::steps, doc::model::Model_steps)
+      .def_readonly("evidence", &Model::evidence, doc::model::Model_evidence)
+      .def_readonly("counts", &Model::counts, doc::model::PointCounts)
+      .def_readonly("findings", &Model::findings, doc::model::Model_findings)
+      .def_property_readonly("is_refused", &Model::is_refused, doc::model::Model_is_refused);
   module.def(
       "model_tubes",
       [](const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings) {
         return without_gil([&] { return model_tubes(cloud, known, settings); });
       },
       py::arg("cloud"), py::arg("known"), py::arg_v("settings", ModelSettings{}, "ModelSettings()"),
-      doc::model_tubes);
-  module.def("tubes_json", &tubes_json, py::arg("model"), doc::tubes_json);
+      doc::model::model_tubes);
+  module.def("tubes_json", &tubes_json, py::arg("model"), doc::model::tubes_json);
 }
 
 }  // namespace tanglebin::python

@@ -17,9 +17,7 @@
 namespace tanglebin::python {
 namespace {
 
-namespace doc = tanglebin::doc::recipe;
-
-std::string text_of(const Recipe& recipe) {
+std::string recipe_text(const Recipe& recipe) {
   validate(recipe);
   std::ostringstream out;
   write_recipe(out, recipe);
@@ -32,14 +30,14 @@ Recipe recipe_from(const std::string& text) {
 }
 
 void bind_case_id(py::module_& module) {
-  py::class_<CaseId>(module, "CaseId", doc::CaseId)
+  py::class_<CaseId>(module, "CaseId", doc::recipe::CaseId)
       .def(py::init([](std::string set, int tubes, int number) {
              return CaseId{std::move(set), tubes, number};
            }),
            py::arg("set"), py::arg("tubes"), py::arg("number"))
       .def_readonly("set", &CaseId::set, "the name of its set")
-      .def_readonly("tubes", &CaseId::tubes, doc::CaseId_tubes)
-      .def_readonly("number", &CaseId::number, doc::CaseId_number)
+      .def_readonly("tubes", &CaseId::tubes, doc::recipe::CaseId_tubes)
+      .def_readonly("number", &CaseId::number, doc::recipe::CaseId_number)
       .def(py::self == py::self)
       .def(py::self < py::self)
       .def("__hash__", [](const CaseId& id) { return py::hash(py::make_tuple(id.set, id.tubes, id.number)); })
@@ -59,21 +57,21 @@ void bind_parts(py::module_& module) {
       .def_readwrite("intensities", &PointProperties::intensities,
                      tanglebin::doc::scan::PointProperties_intensities)
       .def_readwrite("mixed", &PointProperties::mixed, "marks of mixed points");
-  py::class_<OutputSettings>(module, "OutputSettings", doc::OutputSettings)
+  py::class_<OutputSettings>(module, "OutputSettings", doc::recipe::OutputSettings)
       .def(py::init<>())
-      .def_readwrite("plys", &OutputSettings::plys, doc::OutputSettings_plys)
-      .def_readwrite("bin_points", &OutputSettings::bin_points, doc::OutputSettings_bin_points)
-      .def_readwrite("worlds", &OutputSettings::worlds, doc::OutputSettings_worlds)
-      .def_readwrite("pcds", &OutputSettings::pcds, doc::OutputSettings_pcds)
-      .def_readwrite("depths", &OutputSettings::depths, doc::OutputSettings_depths)
-      .def_readwrite("labels", &OutputSettings::labels, doc::OutputSettings_labels)
-      .def_readwrite("properties", &OutputSettings::properties, doc::OutputSettings_properties);
-  py::class_<Scanner>(module, "Scanner", doc::Scanner)
+      .def_readwrite("plys", &OutputSettings::plys, doc::recipe::OutputSettings_plys)
+      .def_readwrite("bin_points", &OutputSettings::bin_points, doc::recipe::OutputSettings_bin_points)
+      .def_readwrite("worlds", &OutputSettings::worlds, doc::recipe::OutputSettings_worlds)
+      .def_readwrite("pcds", &OutputSettings::pcds, doc::recipe::OutputSettings_pcds)
+      .def_readwrite("depths", &OutputSettings::depths, doc::recipe::OutputSettings_depths)
+      .def_readwrite("labels", &OutputSettings::labels, doc::recipe::OutputSettings_labels)
+      .def_readwrite("properties", &OutputSettings::properties, doc::recipe::OutputSettings_properties);
+  py::class_<Scanner>(module, "Scanner", doc::recipe::Scanner)
       .def(py::init([](const std::string& name, const Camera& camera, const Sensor& sensor) {
              return Scanner{name, camera, sensor};
            }),
            py::arg("name"), py::arg("camera"), py::arg("sensor"))
-      .def_readwrite("name", &Scanner::name, doc::Scanner_name)
+      .def_readwrite("name", &Scanner::name, doc::recipe::Scanner_name)
       .def_readwrite("camera", &Scanner::camera, tanglebin::doc::geometry::Camera)
       .def_readwrite("sensor", &Scanner::sensor, tanglebin::doc::scan::Sensor);
   module.def(
@@ -81,57 +79,57 @@ void bind_parts(py::module_& module) {
       [](const std::string& preset, const std::vector<std::string>& settings) {
         return scanner_with(preset, settings, "settings");
       },
-      py::arg("preset"), py::arg("settings") = std::vector<std::string>{}, doc::scanner_with);
-  py::class_<SetRecipe>(module, "SetRecipe", doc::SetRecipe)
+      py::arg("preset"), py::arg("settings") = std::vector<std::string>{}, doc::recipe::scanner_with);
+  py::class_<SetRecipe>(module, "SetRecipe", doc::recipe::SetRecipe)
       .def(py::init([](const std::string& name, const std::vector<int>& tubes, int cases,
                        const std::vector<TubeSpec>& kinds) {
              return SetRecipe{.name = name, .tubes = tubes, .cases = cases, .kinds = kinds};
            }),
            py::arg("name"), py::arg("tubes"), py::arg("cases") = SetRecipe{}.cases,
            py::arg_v("kinds", SetRecipe{}.kinds, "[TubeSpec()]"))
-      .def_readwrite("name", &SetRecipe::name, doc::SetRecipe_name)
-      .def_readwrite("tubes", &SetRecipe::tubes, doc::SetRecipe_tubes)
-      .def_readwrite("cases", &SetRecipe::cases, doc::SetRecipe_cases)
-      .def_readwrite("kinds", &SetRecipe::kinds, doc::SetRecipe_kinds)
-      .def_readwrite("weights", &SetRecipe::weights, doc::SetRecipe_weights);
+      .def_readwrite("name", &SetRecipe::name, doc::recipe::SetRecipe_name)
+      .def_readwrite("tubes", &SetRecipe::tubes, doc::recipe::SetRecipe_tubes)
+      .def_readwrite("cases", &SetRecipe::cases, doc::recipe::SetRecipe_cases)
+      .def_readwrite("kinds", &SetRecipe::kinds, doc::recipe::SetRecipe_kinds)
+      .def_readwrite("weights", &SetRecipe::weights, doc::recipe::SetRecipe_weights);
 }
 
 void bind_recipes(py::module_& module) {
-  py::class_<Recipe>(module, "Recipe", doc::Recipe)
+  py::class_<Recipe>(module, "Recipe", doc::recipe::Recipe)
       .def(py::init(&recipe_from), py::arg("toml"), "Reads the text of a recipe (docs/formats.md).")
-      .def("toml", &text_of, "The text of the recipe, resolved: every value, presets spelled out.")
+      .def("toml", &recipe_text, "The text of the recipe, resolved: every value, presets spelled out.")
       .def_readwrite("seed", &Recipe::seed, "the seed of the dataset")
-      .def_readwrite("attempts", &Recipe::attempts, doc::Recipe_attempts)
+      .def_readwrite("attempts", &Recipe::attempts, doc::recipe::Recipe_attempts)
       .def_readwrite("bin", &Recipe::bin, tanglebin::doc::geometry::Bin)
       .def_readwrite("scanner_name", &Recipe::scanner_name,
                      "the first scanner's; may be empty if it is the only one")
-      .def_readwrite("camera", &Recipe::camera, doc::Recipe_camera)
+      .def_readwrite("camera", &Recipe::camera, doc::recipe::Recipe_camera)
       .def_readwrite("sensor", &Recipe::sensor, "of the first scanner")
-      .def_readwrite("further_scanners", &Recipe::further_scanners, doc::Recipe_further_scanners)
+      .def_readwrite("further_scanners", &Recipe::further_scanners, doc::recipe::Recipe_further_scanners)
       .def_readwrite("settle", &Recipe::settle, tanglebin::doc::settle::SettleSettings)
-      .def_readwrite("output", &Recipe::output, doc::OutputSettings)
+      .def_readwrite("output", &Recipe::output, doc::recipe::OutputSettings)
       .def_readwrite("sets", &Recipe::sets, "A list of SetRecipe; a copy, so assign it to change it.")
       .def_property_readonly(
           "is_random", [](const Recipe& recipe) { return !recipe.random.empty(); },
           "Whether cases draw numbers of their own; resolved() gives the recipe of a case.")
       .def_property_readonly(
-          "cases", [](const Recipe& recipe) { return cases(recipe); }, doc::cases)
+          "cases", [](const Recipe& recipe) { return cases(recipe); }, doc::recipe::cases)
       .def(
           "resolved",
           [](const Recipe& recipe, const CaseId& id) { return resolve(recipe, id, draw(recipe, id)); },
-          py::arg("id"), doc::resolve)
+          py::arg("id"), doc::recipe::resolve)
       .def(
-          "validate", [](const Recipe& recipe) { validate(recipe); }, doc::validate)
-      .def("doubts", &doubts, doc::doubts)
+          "validate", [](const Recipe& recipe) { validate(recipe); }, doc::recipe::validate)
+      .def("doubts", &doubts, doc::recipe::doubts)
       .def(py::self == py::self)
-      .def(py::pickle(&text_of, &recipe_from));
+      .def(py::pickle(&recipe_text, &recipe_from));
   module.def(
       "read_recipe", [](const std::filesystem::path& file) { return read_recipe(file); }, py::arg("file"),
-      doc::read_recipe);
+      doc::recipe::read_recipe);
   module.def(
       "write_recipe",
-      [](const std::filesystem::path& file, const Recipe& recipe) { write_file(file, text_of(recipe)); },
-      py::arg("file"), py::arg("recipe"), doc::write_recipe);
+      [](const std::filesystem::path& file, const Recipe& recipe) { write_file(file, recipe_text(recipe)); },
+      py::arg("file"), py::arg("recipe"), doc::recipe::write_recipe);
 }
 
 void bind_simulate(py::module_& module) {

@@ -23,10 +23,9 @@
 namespace tanglebin::python {
 namespace {
 
-namespace doc = tanglebin::doc::scene;
 namespace fs = std::filesystem;
 
-std::string text_of(const Scene& scene) {
+std::string scene_text(const Scene& scene) {
   validate(scene);
   std::ostringstream out;
   write_scene(out, scene);
@@ -39,37 +38,37 @@ Scene scene_from(const std::string& text) {
 }
 
 void bind_scenes(py::module_& module) {
-  py::class_<Scene>(module, "Scene", doc::Scene)
+  py::class_<Scene>(module, "Scene", doc::scene::Scene)
       .def(py::init(&scene_from), py::arg("toml") = "",
            "Reads the text of a scene file (docs/formats.md); camera files in it are relative to the current "
            "folder.")
-      .def("toml", &text_of, "The text of a scene file that reads back as the same, number for number.")
-      .def_property_readonly("is_empty", &is_empty, doc::is_empty)
-      .def("overridden", &overridden, py::arg("more"), doc::overridden)
-      .def(py::pickle(&text_of, &scene_from));
+      .def("toml", &scene_text, "The text of a scene file that reads back as the same, number for number.")
+      .def_property_readonly("is_empty", &is_empty, doc::scene::is_empty)
+      .def("overridden", &overridden, py::arg("more"), doc::scene::overridden)
+      .def(py::pickle(&scene_text, &scene_from));
   module.def(
       "read_scene", [](const fs::path& file, std::optional<int> image) { return read_scene(file, image); },
-      py::arg("file"), py::arg("image") = py::none(), doc::read_scene);
+      py::arg("file"), py::arg("image") = py::none(), doc::scene::read_scene);
   module.def(
-      "write_scene", [](const fs::path& file, const Scene& scene) { write_file(file, text_of(scene)); },
-      py::arg("file"), py::arg("scene"), doc::write_scene);
+      "write_scene", [](const fs::path& file, const Scene& scene) { write_file(file, scene_text(scene)); },
+      py::arg("file"), py::arg("scene"), doc::scene::write_scene);
 
-  py::class_<SceneCamera>(module, "SceneCamera", doc::SceneCamera)
-      .def_readonly("intrinsics", &SceneCamera::intrinsics, doc::SceneCamera_intrinsics)
+  py::class_<SceneCamera>(module, "SceneCamera", doc::scene::SceneCamera)
+      .def_readonly("intrinsics", &SceneCamera::intrinsics, doc::scene::SceneCamera_intrinsics)
       .def_property_readonly(
           "pose",
           [](const SceneCamera& camera) {
             return camera.pose ? std::optional(matrix_of(*camera.pose)) : std::nullopt;
           },
-          doc::SceneCamera_pose)
-      .def_readonly("unit", &SceneCamera::unit, doc::SceneCamera_unit)
-      .def_readonly("depth_scale", &SceneCamera::depth_scale, doc::SceneCamera_depth_scale);
+          doc::scene::SceneCamera_pose)
+      .def_readonly("unit", &SceneCamera::unit, doc::scene::SceneCamera_unit)
+      .def_readonly("depth_scale", &SceneCamera::depth_scale, doc::scene::SceneCamera_depth_scale);
   module.def("read_camera_file", &read_camera_file, py::arg("file"), py::arg("image") = py::none(),
-             doc::read_camera_file);
+             doc::scene::read_camera_file);
 }
 
 void bind_measurements(py::module_& module) {
-  py::class_<Measurement>(module, "Measurement", doc::Measurement)
+  py::class_<Measurement>(module, "Measurement", doc::scene::Measurement)
       .def_readonly("cloud", &Measurement::cloud, "as the file has it")
       .def_readonly("scene", &Measurement::scene, "what is known about it");
   module.def(
@@ -77,11 +76,11 @@ void bind_measurements(py::module_& module) {
       [](const fs::path& file, const Scene& scene) {
         return without_gil([&] { return read_measurement(file, scene); });
       },
-      py::arg("file"), py::arg_v("scene", Scene{}, "Scene()"), doc::read_measurement);
-  py::class_<ResolvedScene>(module, "ResolvedScene", doc::ResolvedScene)
-      .def_readonly("cloud", &ResolvedScene::cloud, doc::ResolvedScene_cloud)
-      .def_readonly("known", &ResolvedScene::known, doc::ResolvedScene_known)
-      .def_readonly("notes", &ResolvedScene::notes, doc::ResolvedScene_notes);
+      py::arg("file"), py::arg_v("scene", Scene{}, "Scene()"), doc::scene::read_measurement);
+  py::class_<ResolvedScene>(module, "ResolvedScene", doc::scene::ResolvedScene)
+      .def_readonly("cloud", &ResolvedScene::cloud, doc::scene::ResolvedScene_cloud)
+      .def_readonly("known", &ResolvedScene::known, doc::scene::ResolvedScene_known)
+      .def_readonly("notes", &ResolvedScene::notes, doc::scene::ResolvedScene_notes);
   const auto resolver = [&](const char* name, auto function, const char* text) {
     module.def(
         name,
@@ -91,8 +90,8 @@ void bind_measurements(py::module_& module) {
         py::arg("scene"), py::arg("cloud"), text);
   };
   resolver(
-      "resolve", [](const auto&... known) { return resolve(known...); }, doc::resolve);
-  resolver("resolve_without_tubes", &resolve_without_tubes, doc::resolve_without_tubes);
+      "resolve", [](const auto&... known) { return resolve(known...); }, doc::scene::resolve);
+  resolver("resolve_without_tubes", &resolve_without_tubes, doc::scene::resolve_without_tubes);
 }
 
 void bind_known_scene(py::module_& module) {
