@@ -497,7 +497,7 @@ Located locate_plane(const View& view, const Support& support, const Camera& cam
         "is the table in the cloud?",
         100 * fit.parallel));
   }
-  if (fit.below > below_max) {
+  if (fit.below > std::min(below_max, fit.explained)) {
     refuse(fmt::format(
         "{:.0f} % of the points are under the lowest large plane, {:.0f} % on it; crop the cloud to "
         "what lies on it",

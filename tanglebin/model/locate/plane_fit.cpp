@@ -146,14 +146,22 @@ View only_near(View view, const Frame& frame, double gate) {
   return view;
 }
 
+// Whether a patch is parallel to the plane, as far as its noise lets its direction be known.
+bool is_parallel(const Patch& patch, const Frame& frame) {
+  const double least = std::tan(10 * std::numbers::pi / 180);
+  const double extent =
+      std::sqrt(patch.area / 12);  // m, standard deviation of a square's points along a side
+  const double slope = frame.normal.cross(patch.normal).norm() / std::abs(frame.normal.dot(patch.normal));
+  return slope < std::max(least, patch.noise / extent);
+}
+
 // Of a table, all. A plane through a heap of tubes meets them at all angles.
 double share_parallel(const View& view, const Frame& frame, double gate) {
-  const double most_oblique = std::cos(10 * std::numbers::pi / 180);
   double parallel = 0;
   double all = 0;
   for (const Patch& patch : patches_of(only_near(view, frame, gate))) {
     all += patch.area;
-    if (patch.normal.dot(frame.normal) > most_oblique) parallel += patch.area;
+    if (is_parallel(patch, frame)) parallel += patch.area;
   }
   return all > 0 ? parallel / all : 0;
 }
