@@ -60,7 +60,7 @@ struct Mistake {
 inline std::vector<Mistake> mistakes() {
   constexpr auto error = Finding::Severity::error;
   constexpr auto warning = Finding::Severity::warning;
-  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  static constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   const auto to_camera = [](View& view) {
     move(view.cloud, Eigen::Affine3d(view.scene.camera.pose.inverse()));
   };
