@@ -37,7 +37,8 @@ nlohmann::ordered_json rows_of(const Eigen::Isometry3d& pose) {
   return rows;
 }
 
-void print_json(const Located& located) {
+void print_json(const LocatedScene& found) {
+  const Located& located = found.located;
   const Eigen::Vector3d position = located.position_sd / millimetre;
   const Eigen::Vector3d rotation = located.rotation_sd / degree;
   nlohmann::ordered_json json{{"shape", name_of(located.support.shape)},
@@ -56,6 +57,7 @@ void print_json(const Located& located) {
   for (const LocatedPart& part : located.parts)
     json["parts"].push_back(
         {{"name", part.name}, {"points", part.points}, {"noise_mm", part.noise / millimetre}});
+  json["notes"] = found.notes;
   print_json_line(json);
 }
 
@@ -105,7 +107,7 @@ void locate_in_cloud(const LocateArguments& arguments) {
   }
   if (take_standard_output(outputs(arguments))) return;
   if (arguments.json) {
-    print_json(found.located);
+    print_json(found);
   } else {
     print_table(found.located);
   }

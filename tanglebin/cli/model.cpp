@@ -56,17 +56,18 @@ std::string cloud_bytes(const PointCloud& cloud, const Model& model, const std::
   return std::move(out).str();
 }
 
-void print_summary(const ModelArguments& arguments, const KnownScene& known, const Model& model) {
+void print_summary(const ModelArguments& arguments, const ResolvedScene& scene, const Model& model) {
   if (arguments.json) {
     nlohmann::ordered_json json{{"cloud", arguments.out},
                                 {"points", model.labels.size()},
                                 {"radii", nlohmann::ordered_json::array()},
                                 {"tubes", model.tubes.size()}};
-    for (const TubeKind& kind : known.kinds) json["radii"].push_back(kind.radius);
+    for (const TubeKind& kind : scene.known.kinds) json["radii"].push_back(kind.radius);
     for (const Step& step : model.steps) {
       json["steps"].push_back(
           {{"name", step.name}, {"seconds", step.seconds}, {"count", step.count}, {"of", step.of}});
     }
+    json["notes"] = scene.notes;
     add_tubes(json, model);
     print_json_line(json);
     return;
@@ -138,7 +139,7 @@ void model_cloud(const ModelArguments& arguments) {
   write_output(arguments.out, cloud_bytes(measured.cloud, model, arguments.out));
   write(arguments.files, model);
   if (arguments.debug_directory) write_pictures(resolved, settings, arguments);
-  if (!take_standard_output(outputs(arguments))) print_summary(arguments, resolved.known, model);
+  if (!take_standard_output(outputs(arguments))) print_summary(arguments, resolved, model);
   print_findings(model, arguments.cloud);
   expect_usable(model);
 }

@@ -72,6 +72,7 @@ TEST_F(LocateCommand, PrintsJson) {
   EXPECT_NEAR(json["support_to_world"][2][3].get<double>(), 2, 0.001);
   EXPECT_NEAR(json["measured"]["length"].get<double>(), 0.55, 0.001);
   EXPECT_GT(json["explained"].get<double>(), 0.9);
+  EXPECT_TRUE(json.at("notes").empty());  // frame and unit are told
 }
 
 TEST_F(LocateCommand, SaysWhyABinIsNotFound) {

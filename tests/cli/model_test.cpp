@@ -252,10 +252,13 @@ TEST_F(ModelCommand, FindsOutWhatAnOrganizedCloudShows) {
   write("scan.pcd", pcd.str());
   const ProgramResult run = model_without_scene("scan.pcd", "--radius 0.0125 --json");
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(nlohmann::json::parse(run.out).at("tubes"), 2);
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json.at("tubes"), 2);
   for (const char* note :
-       {"VIEWPOINT", "in the world frame", "fitted to the organized cloud", "a bin or a floor"})
+       {"VIEWPOINT", "in the world frame", "fitted to the organized cloud", "a bin or a floor"}) {
     EXPECT_THAT(run.err, HasSubstr(note));
+    EXPECT_THAT(json.at("notes").dump(), HasSubstr(note));
+  }
 }
 
 TEST_F(ModelCommand, TakesACameraFileAndACloudInMillimetresInTheCamerasFrame) {

@@ -487,10 +487,17 @@ Located locate_plane(const View& view, const Support& support, const Camera& cam
   const std::vector<FlatPlane> planes = planes_of(patches_of(view));
   const PlaneFit fit = fit_plane(view, lowest_plane(planes), support.margin);
   constexpr double explained_min = 0.02;
+  constexpr double parallel_min = 0.45;
   constexpr double below_max = 0.2;
   if (fit.explained < explained_min)
     refuse(fmt::format("{:.1f} % of the points are on the largest plane", 100 * fit.explained));
-  if (fit.below > below_max) {
+  if (fit.parallel < parallel_min) {
+    refuse(fmt::format(
+        "of the surface near the best plane, only {:.0f} % is parallel to it: it cuts through the tubes; "
+        "is the table in the cloud?",
+        100 * fit.parallel));
+  }
+  if (fit.below > std::min(below_max, fit.explained)) {
     refuse(fmt::format(
         "{:.0f} % of the points are under the lowest large plane, {:.0f} % on it; crop the cloud to "
         "what lies on it",

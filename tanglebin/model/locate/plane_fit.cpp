@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -133,6 +135,37 @@ double share_below(const std::vector<Vector3d>& points, const Frame& frame, doub
   return static_cast<double>(below) / static_cast<double>(points.size());
 }
 
+// What is seen near the plane, alone.
+View only_near(View view, const Frame& frame, double gate) {
+  std::erase_if(view.seen, [&](std::size_t pixel) {
+    Eigen::Vector3f& point = view.points[pixel];
+    const bool is_near = std::abs(frame.local(point.cast<double>()).z()) < gate;
+    if (!is_near) point.setConstant(std::numeric_limits<float>::quiet_NaN());
+    return !is_near;
+  });
+  return view;
+}
+
+// Whether a patch is parallel to the plane, as far as its noise lets its direction be known.
+bool is_parallel(const Patch& patch, const Frame& frame) {
+  const double least = std::tan(10 * std::numbers::pi / 180);
+  const double extent =
+      std::sqrt(patch.area / 12);  // m, standard deviation of a square's points along a side
+  const double slope = frame.normal.cross(patch.normal).norm() / std::abs(frame.normal.dot(patch.normal));
+  return slope < std::max(least, patch.noise / extent);
+}
+
+// Of a table, all. A plane through a heap of tubes meets them at all angles.
+double share_parallel(const View& view, const Frame& frame, double gate) {
+  double parallel = 0;
+  double all = 0;
+  for (const Patch& patch : patches_of(only_near(view, frame, gate))) {
+    all += patch.area;
+    if (is_parallel(patch, frame)) parallel += patch.area;
+  }
+  return all > 0 ? parallel / all : 0;
+}
+
 }  // namespace
 
 PlaneFit fit_plane(const View& view, const FlatPlane& plane, double margin) {
@@ -170,6 +203,7 @@ PlaneFit fit_plane(const View& view, const FlatPlane& plane, double margin) {
                .points = static_cast<int>(near.size()),
                .explained = count / static_cast<double>(points.size()),
                .below = share_below(points, frame, 2 * gate),
+               .parallel = share_parallel(view, frame, gate),
                .covariance = information.inverse()};
   fit.frame.linear() << frame.x, frame.y, frame.normal;
   fit.frame.translation() = frame.origin;

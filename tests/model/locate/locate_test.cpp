@@ -239,6 +239,43 @@ TEST(Locate, FindsAPlaneUnderTubes) {
   }
 }
 
+TEST(Locate, FindsAPlaneThroughARealisticScanner) {
+  for (const char* scanner : {"zivid-one-plus-l", "kinect-v1", "phoxi"}) {
+    ScanOfBin made = scan_of_plane(20, 10);
+    Sensor sensor = sensor_preset(scanner);
+    sensor.working_distance = 1;
+    made.cloud = cloud_from_scan(scan(some_tubes(20, {}), test::wide_bin(), made.camera, sensor, test::seed),
+                                 CloudOf::tubes_and_bin, 20);
+    const Located located = located_without_guess(made);
+    EXPECT_LT(std::abs(located.support.pose.translation().z()), 0.002) << scanner;
+    EXPECT_LT(std::acos(std::min(1.0, located.support.pose.linear()(2, 2))) / degree, 0.3) << scanner;
+  }
+}
+
+// A plane through the tubes has more points on it than any other.
+TEST(Locate, RefusesAPlaneUnderTubesOfWhichNothingIsSeen) {
+  for (const int tubes : {5, 10, 20}) {
+    for (const double tilt_deg : {0.0, 30.0}) {
+      ScanOfBin scan = scan_of_plane(tubes, tilt_deg);
+      scan.cloud = cloud_from_scan(tanglebin::scan(some_tubes(tubes, {}), test::wide_bin(), scan.camera),
+                                   CloudOf::tubes, tubes);
+      EXPECT_THAT(refusal(scan), HasSubstr("not located")) << tubes << " " << tilt_deg;
+    }
+  }
+}
+
+// Their tops are all at one height.
+TEST(Locate, RefusesAPlaneThroughTubesThatLieSideBySide) {
+  ScanOfBin scan = scan_of_plane(0, 20);
+  std::vector<Tube> tubes;
+  for (int i = 0; i < 12; ++i) {
+    const double y = 0.03 * (i - 6);
+    tubes.push_back(test::chain(i + 1, 0.0125, {{-0.2, y, 0.0125}, {0.2, y, 0.0125}}));
+  }
+  scan.cloud = cloud_from_scan(tanglebin::scan(tubes, test::wide_bin(), scan.camera), CloudOf::tubes, 12);
+  EXPECT_THAT(refusal(scan), HasSubstr("it cuts through the tubes"));
+}
+
 TEST(Locate, MovesThePoseOfAPlaneNoMoreThanItMust) {
   const ScanOfBin scan = scan_of_plane(3, 20);
   Isometry3d guess(Eigen::AngleAxisd(0.5, Vector3d::UnitZ()));
