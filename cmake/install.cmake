@@ -1,4 +1,5 @@
 # cmake --install: the program, the libraries, their public headers and the package file that find_package(tanglebin) reads.
+# What is for C++ is the component `development`, the program `program`; packaging/ makes packages of them.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
@@ -25,18 +26,27 @@ set(public_headers
   score/confusion score/metrics score/score score/score_clouds score/score_tubes)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)
-  install(FILES ${PROJECT_SOURCE_DIR}/tanglebin/${header}.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tanglebin/${room})
+  install(FILES ${PROJECT_SOURCE_DIR}/tanglebin/${header}.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tanglebin/${room}
+          COMPONENT development)
 endforeach()
 
-install(TARGETS tanglebin_program)
+install(TARGETS tanglebin_program COMPONENT program)
 install(TARGETS tanglebin_core tanglebin_axis tanglebin_paper tanglebin_modelling tanglebin_simulation tanglebin_datasets
-        EXPORT tanglebinTargets)
-install(EXPORT tanglebinTargets NAMESPACE tanglebin:: DESTINATION ${package_dir})
+        EXPORT tanglebinTargets COMPONENT development)
+install(EXPORT tanglebinTargets NAMESPACE tanglebin:: DESTINATION ${package_dir} COMPONENT development)
 
+# With their versions, such as libpcl_search.so.1.13: programs outside need no headers of the Point Cloud Library.
+set(pcl_shared_libraries)
+foreach(library IN LISTS pcl_libraries)
+  get_filename_component(library ${library} REALPATH)
+  get_filename_component(name ${library} NAME)
+  string(REGEX REPLACE "(\\.so\\.[0-9]+\\.[0-9]+).*" "\\1" name ${name})
+  list(APPEND pcl_shared_libraries ${name})
+endforeach()
+list(JOIN pcl_shared_libraries " " pcl_shared_libraries)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tanglebinConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/tanglebinConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/tanglebinConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/tanglebinConfig.cmake ${PROJECT_BINARY_DIR}/tanglebinConfigVersion.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/pcl.cmake
-        DESTINATION ${package_dir})
+        DESTINATION ${package_dir} COMPONENT development)
