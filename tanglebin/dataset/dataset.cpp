@@ -83,18 +83,26 @@ Recipe recipe_of(const Dataset& dataset, const CaseId& id) {
   return resolve(dataset.recipe, id, dataset.catalogue.record(id).drawn);
 }
 
+Recipe recipe_of(const Dataset& dataset, const CaseId& id, const std::string& scanner) {
+  return with_scanner(recipe_of(dataset, id), scanner);
+}
+
 void expect_clouds(const Dataset& dataset) {
   if (dataset.recipe.output.plys) return;
   throw InputError({(dataset.directory / recipe_name).string(), 0, "output.plys"},
                    "false, so the dataset has no clouds", "true; generate a dataset with clouds");
 }
 
-CaseData read_case(const Dataset& dataset, const CaseId& id) {
+CaseData read_case(const Dataset& dataset, const CaseId& id, const std::string& scanner) {
   expect_clouds(dataset);
   const CaseRecord record = dataset.catalogue.record(id);
-  CheckedFile cloud = open_checked(dataset.directory, record, "plys", "ply", dataset.recipe.scanner_name);
+  CheckedFile cloud = open_checked(dataset.directory, record, "plys", "ply", scanner);
   CheckedFile tubes = open_checked(dataset.directory, record, "tube_configurations", "txt");
   return {cloud.name, read_ply(cloud.in, cloud.name), read_configuration(tubes.in, tubes.name)};
+}
+
+CaseData read_case(const Dataset& dataset, const CaseId& id) {
+  return read_case(dataset, id, dataset.recipe.scanner_name);
 }
 
 }  // namespace tanglebin

@@ -24,8 +24,8 @@ struct ExperimentSummary {
   bool was_stopped() const { return progress.found + progress.made + progress.failed < progress.wanted; }
 };
 
-/// Models and scores the wanted cases, which the dataset must have, with every method and ratio in `jobs`
-/// processes. Writes experiment.json, results.jsonl, times.jsonl, results.csv, tubes.csv and generation.jsonl
+/// Models and scores the wanted cases, which the dataset must have, as each scanner sees them, with every
+/// method and ratio in `jobs` processes. Writes experiment.json, results.jsonl, times.jsonl, results.csv, tubes.csv and generation.jsonl
 /// (docs/formats.md), and the models if they are to be kept, to `directory`. Existing results are kept, so an
 /// interrupted run can be resumed and cases can be added; a case whose models are to be kept, but are not
 /// there, is run again. The bytes of results.jsonl depend only on dataset, settings and cases, if commands

@@ -32,8 +32,9 @@ std::string image(const std::string& png, const std::string& file, const std::st
 }
 
 std::string case_text(const RunKey& run) {
-  return fmt::format("set {}, {}, case {}", run.id.set,
-                     counted(static_cast<std::size_t>(run.id.tubes), "tube"), run.id.number);
+  return seen_by(run.scanner,
+                 fmt::format("set {}, {}, case {}", run.id.set,
+                             counted(static_cast<std::size_t>(run.id.tubes), "tube"), run.id.number));
 }
 
 std::string rank_text(const std::string& rank) {

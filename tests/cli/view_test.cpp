@@ -114,7 +114,7 @@ TEST_F(ViewCommand, SaysWhatIsWrongWithItsInputAndExitsWith2) {
   EXPECT_THAT(message("absent.ply --out a.html"), HasSubstr("absent.ply: cannot be opened"));
   EXPECT_THAT(message("dataset/A2/1 --out a.png"), HasSubstr("--out: found 'a.png'"));
   EXPECT_THAT(message("dataset/A2/tube_configurations/1.txt --labelled labelled.ply --out a.html"),
-              HasSubstr("--labelled: found a configuration to view"));
+              HasSubstr("--labelled: found tubes to view"));
   EXPECT_THAT(message("dataset/A2/1 --modelled-tubes recipe.toml --out a.html"), HasSubstr("recipe.toml:1"));
 }
 

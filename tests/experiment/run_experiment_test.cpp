@@ -110,7 +110,7 @@ TEST_F(RunExperiment, ALineHasWhatModellingAndScoringTheCaseGive) {
   const CaseData data = read_case(dataset, id.scene);
   const Model model = model_case(known_scene(recipe_of(dataset, id.scene), id.scene), data, id, settings_);
   EXPECT_EQ(lines_of(bytes_of(results / "results.jsonl")).at(0),
-            result_json(id, case_sha256(dataset, id.scene), {.model = model}, score_model(data, model)));
+            result_json(id, dataset.catalogue.record(id.scene), {.model = model}, score_model(data, model)));
 }
 
 TEST_F(RunExperiment, SaysWhatTheResultsFollowFromAndHowLongTheDatasetTook) {
