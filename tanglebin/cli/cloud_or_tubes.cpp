@@ -23,9 +23,10 @@ CloudOrTubes read(std::istream& in, const std::string& name) {
   if (first == std::istream::traits_type::eof() || (std::isdigit(first) == 0 && first != '{')) {
     const bool is_empty = first == std::istream::traits_type::eof();
     const char character = std::istream::traits_type::to_char_type(first);
-    throw InputError({.file = name, .line = 0, .field = ""},
-                     is_empty ? "an empty file" : excerpt({&character, 1}) + " at the start",
-                     "a configuration, which begins with the number of tubes, tubes.json, or a PLY or PCD cloud");
+    throw InputError(
+        {.file = name, .line = 0, .field = ""},
+        is_empty ? "an empty file" : excerpt({&character, 1}) + " at the start",
+        "a configuration, which begins with the number of tubes, tubes.json, or a PLY or PCD cloud");
   }
   return read_tubes(in, name);
 }

@@ -71,7 +71,8 @@ std::pair<std::string, std::string> named(const std::string& text, const std::st
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-// "axis:thin.toml": a method that is built in, and a profile over the experiment's settings; none of a command.
+// "axis:thin.toml": a method that is built in, and a profile over the experiment's settings; none of a
+// command.
 std::optional<BuiltIn> built_in(const std::string& text, ModelSettings model) {
   const std::size_t colon = text.find(':');
   const std::vector<Method> known = methods();

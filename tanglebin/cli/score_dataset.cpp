@@ -31,9 +31,8 @@ void print_scene(const SceneScore& scene) {
     return;
   }
   const Score& score = scene.score->labels;
-  print_out("{:<12} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7.4f}\n", name_of(scene.seen),
-            score.micro_recall, score.mean_iou, score.detection.f1, score.detection.panoptic_quality,
-            score.adjusted_rand_index);
+  print_out("{:<12} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7.4f}\n", name_of(scene.seen), score.micro_recall,
+            score.mean_iou, score.detection.f1, score.detection.panoptic_quality, score.adjusted_rand_index);
 }
 
 void print_means_json(const std::vector<MeanScore>& means) {
@@ -58,8 +57,8 @@ void print_means(const std::vector<MeanScore>& means) {
             "micro-recall", "mean IoU", "F1", "PQ", "ARI");
   for (const MeanScore& mean : means) {
     print_out("{:<6} {:>5} {:>6} {:>6} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7.4f}\n",
-              seen_by(mean.scanner, mean.set), mean.tubes, mean.scenes, mean.failed, mean.micro_recall, mean.mean_iou, mean.f1, mean.panoptic_quality,
-              mean.adjusted_rand_index);
+              seen_by(mean.scanner, mean.set), mean.tubes, mean.scenes, mean.failed, mean.micro_recall,
+              mean.mean_iou, mean.f1, mean.panoptic_quality, mean.adjusted_rand_index);
   }
 }
 

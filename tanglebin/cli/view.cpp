@@ -103,8 +103,7 @@ void expect_a_cloud(const ViewArguments& arguments, const ViewedScene& scene) {
   for (const auto& [option, file] :
        {std::pair("--labelled", arguments.labelled), std::pair("--true-tubes", arguments.true_tubes),
         std::pair("--modelled-tubes", arguments.modelled_tubes)}) {
-    if (file)
-      throw InputError({"", 0, option}, "tubes to view", "a cloud or a dataset's case beside it");
+    if (file) throw InputError({"", 0, option}, "tubes to view", "a cloud or a dataset's case beside it");
   }
 }
 
@@ -130,16 +129,17 @@ void add_view(CLI::App& app) {
   const auto arguments = std::make_shared<ViewArguments>();
   CLI::App* command = app.add_subcommand("view", "Write an HTML page that shows a scene in 3D");
   command
-      ->add_option(
-          "input", arguments->input,
-          "Cloud (.ply, .pcd), tubes (configuration or tubes.json) or a dataset's case, such as DATASET/A10/1; - for "
-          "standard input")
+      ->add_option("input", arguments->input,
+                   "Cloud (.ply, .pcd), tubes (configuration or tubes.json) or a dataset's case, such as "
+                   "DATASET/A10/1; - for "
+                   "standard input")
       ->required();
   command->add_option("--out", arguments->out, "Self-contained HTML page to write; - for standard output")
       ->required();
   command->add_option("--labelled", arguments->labelled,
                       "Cloud with the labels that were found: all or some points of the input, in any order");
-  command->add_option("--true-tubes", arguments->true_tubes, "True tubes of a cloud (configuration or tubes.json)");
+  command->add_option("--true-tubes", arguments->true_tubes,
+                      "True tubes of a cloud (configuration or tubes.json)");
   command->add_option("--modelled-tubes", arguments->modelled_tubes,
                       "Tubes that were found (configuration or tubes.json)");
   add_scene_option(*command, arguments->scene);

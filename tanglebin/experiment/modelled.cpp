@@ -122,8 +122,9 @@ FoundLabels find_labels(const LabelsDirectory& directory, const RunId& run, cons
   const auto labels = labels_file(folder, run);
   const auto tubes = tubes_file(folder, run);
   if (!labels && !tubes)
-    throw InputError({folder.string(), 0, ""}, "no labels",
-                     fmt::format("{} or another file of labels or tubes", file_of(run.scene, "plys", "ply", run.scanner)));
+    throw InputError(
+        {folder.string(), 0, ""}, "no labels",
+        fmt::format("{} or another file of labels or tubes", file_of(run.scene, "plys", "ply", run.scanner)));
   FoundLabels found{.labels = {}, .tubes = {}, .sha256 = sha256_of(labels, tubes)};
   if (labels) {
     std::istringstream in(labels->bytes);

@@ -257,7 +257,8 @@ std::string journal_line(const std::vector<std::string>& lines) {
 
 RunId RunGrid::run(std::size_t index, const CaseId& id) const {
   const std::size_t view = index / ratios.size();
-  return {methods[view / scanners.size()], id, ratios[index % ratios.size()], scanners[view % scanners.size()]};
+  return {methods[view / scanners.size()], id, ratios[index % ratios.size()],
+          scanners[view % scanners.size()]};
 }
 
 std::size_t RunGrid::index_of(const RunId& run) const {
@@ -385,7 +386,8 @@ bool FinishedRuns::has_other_labels(const CaseId& id, const Case& finished,
                                     const ExperimentSettings& settings) const {
   LineReader reader(files_);
   for (std::size_t i = 0; i < finished.runs.size(); ++i) {
-    const auto* directory = std::get_if<LabelsDirectory>(&settings.methods[i / grid_.runs_of_a_method()].what);
+    const auto* directory =
+        std::get_if<LabelsDirectory>(&settings.methods[i / grid_.runs_of_a_method()].what);
     if (directory == nullptr || finished.runs[i].state != State::scored) continue;
     const LinePlace& place = finished.runs[i].result;
     const RunResult result = run_result({reader.line(place), files_[place.file].string(), place.line});

@@ -149,9 +149,8 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
   observer.begun(missing);
   const Place place{directory, journal.staging(), jobs};
   const auto run_case = [&](std::size_t task) {
-    return journal_line_of(dataset, missing[task], [&](const SeenCase& seen) {
-      return run_cloud(dataset, settings, seen, place);
-    });
+    return journal_line_of(dataset, missing[task],
+                           [&](const SeenCase& seen) { return run_cloud(dataset, settings, seen, place); });
   };
   try {
     run_in_workers(jobs, missing.size(), run_case,

@@ -36,8 +36,7 @@ void add(std::vector<MeanScore>& means, const SceneScore& scene) {
   auto mean = std::ranges::find_if(means, [&its = scene.seen](const MeanScore& other) {
     return other.set == its.scene.set && other.scanner == its.scanner && other.tubes == its.scene.tubes;
   });
-  if (mean == means.end())
-    mean = means.insert(mean, {.set = id.set, .scanner = scanner, .tubes = id.tubes});
+  if (mean == means.end()) mean = means.insert(mean, {.set = id.set, .scanner = scanner, .tubes = id.tubes});
   ++mean->scenes;
   if (!scene.score) ++mean->failed;
   const auto include = [&](double& mean_value, double value) {

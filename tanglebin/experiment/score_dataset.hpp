@@ -16,12 +16,12 @@ struct SceneScore {
   std::optional<RunFailure> failure{};
 };
 
-/// Scores the labels of a case's cloud in a directory (find_labels()). A case without labels or with such that cannot
-/// be read has a failure. Throws InputError as read_case() does.
+/// Scores the labels of a case's cloud in a directory (find_labels()). A case without labels or with such
+/// that cannot be read has a failure. Throws InputError as read_case() does.
 SceneScore score_scene(const Dataset& dataset, const SeenCase& seen, const LabelsDirectory& labels);
 
-/// The means over the scenes of a set with the same number of tubes, as a scanner sees them. A scene that failed counts as one in
-/// which nothing was found; one without a visible tube does not count.
+/// The means over the scenes of a set with the same number of tubes, as a scanner sees them. A scene that
+/// failed counts as one in which nothing was found; one without a visible tube does not count.
 struct MeanScore {
   std::string set;
   std::string scanner;

@@ -108,11 +108,12 @@ std::string leaderboard(const Results& results) {
   }
   const double ratio = shown_ratio(results.scores);
   const std::vector<Standing> standings = standings_of(results, ratio);
-  const std::string note = paragraph(
-      "note",
-      "Mean micro-recall over scenes, each of which counts once, with the mean over its scanners. ± is half the "
-      "95 % confidence interval of the mean. A failed run counts as one that found nothing. Seconds: mean time "
-      "of a run.");
+  const std::string note = paragraph("note",
+                                     "Mean micro-recall over scenes, each of which counts once, with the "
+                                     "mean over its scanners. ± is half the "
+                                     "95 % confidence interval of the mean. A failed run counts as one that "
+                                     "found nothing. Seconds: mean time "
+                                     "of a run.");
   return section_html(
       "leaderboard", heading,
       note + html(overall(standings, ratio)) +

@@ -152,7 +152,9 @@ std::string note_on_failures(const Results& results) {
             counted(failed.size(), "run"), escaped(first.method), ratio_text(first.ratio),
             escaped(name_of(SeenCase{first.id, first.scanner})), escaped(failed.front().failure)));
   }
-  const auto unscored = distinct(results.unscored, [](const RunKey& run) { return SeenCase{run.id, run.scanner}; });
+  const auto unscored = distinct(results.unscored, [](const RunKey& run) {
+    return SeenCase{run.id, run.scanner};
+  });
   if (!unscored.empty()) {
     html += paragraph("warning", fmt::format("{} without a visible tube, which no mean counts.",
                                              counted(unscored.size(), "case")));

@@ -191,11 +191,13 @@ constexpr const char* no_scores =
 /// The plots of a figure, with one caption.
 std::string figure_of(const Results& results, const std::vector<RunScore>& scores, const Axis& axis,
                       const std::string& x_label, const std::string& caption_html) {
+  const std::vector<std::vector<RunScore>> parts = parts_to_plot(scores);
   std::string plots;
-  for (const std::vector<RunScore>& part : parts_to_plot(scores))
-    plots += plot_of(results, part, lines_of(results, part, axis), axis, x_label);
-  return fmt::format("<figure>\n<div class=\"side-by-side\">{}</div><figcaption>{}</figcaption></figure>\n", plots,
-                     caption_html);
+  for (const std::vector<RunScore>& part : parts)
+    plots += fmt::format("<div>\n{}</div>\n",
+                         plot_of(results, part, lines_of(results, part, axis), axis, x_label));
+  if (parts.size() > 1) plots = fmt::format("<div class=\"side-by-side\">\n{}</div>\n", plots);
+  return fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", plots, caption_html);
 }
 
 std::string figure_8_note(const std::vector<RecallLine>& lines) {
@@ -247,8 +249,8 @@ std::string recall_by_ratio(const Results& results) {
   content +=
       figure_of(results, scores, ratio_axis, "downsampling ratio",
                 fmt::format("{}Micro-recall by downsampling ratio in bins with {}. {}{}", leading(figure),
-                              counted(static_cast<std::size_t>(tubes), "tube"), reading_aid,
-                              results.is_papers ? " The paper prints no numbers of its Figure 9." : ""));
+                            counted(static_cast<std::size_t>(tubes), "tube"), reading_aid,
+                            results.is_papers ? " The paper prints no numbers of its Figure 9." : ""));
   return section_html("figure-9", heading, content + tables_of(lines, ratio_axis, figure));
 }
 

@@ -18,7 +18,8 @@ constexpr const char* continued = " \\\n ";
 /// As a shell reads it: in quotes where it has to be.
 std::string word(const std::string& text) {
   const auto is_plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("_-./:=,+%@").find(c) != std::string_view::npos;
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("_-./:=,+%@").find(c) != std::string_view::npos;
   };
   if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
   std::string quoted = "'";
@@ -50,7 +51,8 @@ std::string list_of(const std::vector<int>& ascending) {
 }
 
 /// The options that choose these of all cases, such as " --tubes 1,5"; none if there are no such options.
-std::optional<std::string> options_for(const std::vector<CaseId>& chosen_cases, const std::vector<CaseId>& all) {
+std::optional<std::string> options_for(const std::vector<CaseId>& chosen_cases,
+                                       const std::vector<CaseId>& all) {
   std::string options;
   std::vector<CaseId> selected = all;
   const auto choose = [&](const char* option, const auto& key) {
@@ -133,8 +135,9 @@ std::string commands(const Results& results, const std::string& page) {
 std::string note_on_chosen_cases(const Results& results) {
   std::string html;
   if (!options_of_generate(results))
-    html += paragraph("note", fmt::format("The dataset has {} of the recipe's {} cases.",
-                                          results.generation.size(), cases(*results.experiment.recipe).size()));
+    html +=
+        paragraph("note", fmt::format("The dataset has {} of the recipe's {} cases.",
+                                      results.generation.size(), cases(*results.experiment.recipe).size()));
   if (results.generation.size() > results.experiment.cases)
     html += paragraph("note", fmt::format("These results cover {} of the dataset's {} cases.",
                                           results.experiment.cases, results.generation.size()));
@@ -143,8 +146,9 @@ std::string note_on_chosen_cases(const Results& results) {
 
 std::string note_on_scene_file(const Results& results) {
   if (!results.experiment.has_scene_file) return "";
-  return paragraph("note",
-                   "The methods were told what <code>scene.toml</code> says; <code>experiment.json</code> has it.");
+  return paragraph(
+      "note",
+      "The methods were told what <code>scene.toml</code> says; <code>experiment.json</code> has it.");
 }
 
 }  // namespace
@@ -155,10 +159,11 @@ std::string how_to_repeat(const Results& results, const std::string& page) {
       fmt::format("<pre tabindex=\"0\"><code>{}</code></pre>\n", escaped(commands(results, page))) +
           note_on_chosen_cases(results) + note_on_scene_file(results) +
           paragraph("note",
-                    fmt::format("The dataset has its recipe with every value, so another <code>--out</code> makes it "
-                                "anew. With Tanglebin {}, the same recipe gives exactly the same scores. Times "
-                                "differ between machines.",
-                                escaped(results.experiment.version))));
+                    fmt::format(
+                        "The dataset has its recipe with every value, so another <code>--out</code> makes it "
+                        "anew. With Tanglebin {}, the same recipe gives exactly the same scores. Times "
+                        "differ between machines.",
+                        escaped(results.experiment.version))));
 }
 
 }  // namespace tanglebin

@@ -56,8 +56,8 @@ struct RunScore {
   double adjusted_rand_index = 0;
   std::optional<double> centre_line_error{};  ///< m; none if no tube was found
   std::size_t true_joins = 0;
-  std::size_t joins_found = 0;  ///< of the true ones
-  std::size_t joins_made = 0;   ///< true or not
+  std::size_t joins_found = 0;            ///< of the true ones
+  std::size_t joins_made = 0;             ///< true or not
   std::map<std::string, double> drawn{};  ///< for its case, by path in the recipe
 };
 

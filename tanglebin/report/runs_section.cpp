@@ -26,8 +26,8 @@ std::string variable_of(const std::string& path, const RunKey& run, const std::o
   if (path.starts_with("set[") && bracket != std::string::npos) return path.substr(bracket + 2);
   if (!path.starts_with("scanner[") || bracket == std::string::npos || !recipe) return path;
   const std::vector<Scanner> all = scanners(*recipe);
-  const std::size_t own = static_cast<std::size_t>(
-      std::ranges::find(all, run.scanner, &Scanner::name) - all.begin());
+  const std::size_t own =
+      static_cast<std::size_t>(std::ranges::find(all, run.scanner, &Scanner::name) - all.begin());
   return path.starts_with(fmt::format("scanner[{}].", own)) ? "scanner." + path.substr(bracket + 2) : "";
 }
 
@@ -88,11 +88,13 @@ std::string all_runs(const Results& results) {
     return section_html("runs", heading,
                         paragraph("missing", "The results have no scores (<code>results.jsonl</code>)."));
   }
-  const std::string note = paragraph(
-      "note",
-      "Each row is a run: a case, a method and a downsampling ratio, and a scanner if there are several. Columns "
-      "after the seconds, if any, are numbers that the recipe draws for each case. Choose what to plot, choose which runs "
-      "count, and sort by any column. A failed run counts as one that found nothing.");
+  const std::string note =
+      paragraph("note",
+                "Each row is a run: a case, a method and a downsampling ratio, and a scanner if there are "
+                "several. Columns "
+                "after the seconds, if any, are numbers that the recipe draws for each case. Choose what to "
+                "plot, choose which runs "
+                "count, and sort by any column. A failed run counts as one that found nothing.");
   const std::string without =
       paragraph("note", "This needs JavaScript. <code>results.jsonl</code> has the same numbers.");
   return section_html("runs", heading,
