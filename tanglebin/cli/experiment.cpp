@@ -26,6 +26,7 @@
 #include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/cli/scene_options.hpp"
 #include "tanglebin/cli/shard_option.hpp"
+#include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/experiment/run_experiment.hpp"
 #include "tanglebin/experiment/summary.hpp"
 #include "tanglebin/profile/profile.hpp"

@@ -40,24 +40,18 @@ std::string checked_bytes(const std::filesystem::path& directory, const FileReco
 /// manifest.
 Recipe recipe_of(const Dataset& dataset, const CaseId& id);
 
-/// The same with one of its scanners alone.
-Recipe recipe_of(const Dataset& dataset, const CaseId& id, const std::string& scanner);
-
 /// A case read back.
 struct CaseData {
   std::string cloud_file;  ///< for messages
-  PointCloud cloud;        ///< of one scanner, with the true labels
+  PointCloud cloud;        ///< of the recipe's first scanner, with the true labels
   std::vector<Tube> tubes;
 };
 
 /// Throws InputError naming the recipe's setting if the dataset was made without clouds.
 void expect_clouds(const Dataset& dataset);
 
-/// Reads a scanner's cloud and the configuration of a finished case. Throws InputError if the dataset has no
-/// clouds, and naming the file that is missing, has another checksum than in the manifest, or cannot be read.
-CaseData read_case(const Dataset& dataset, const CaseId& id, const std::string& scanner);
-
-/// The same of the recipe's first scanner.
+/// Reads the cloud and the configuration of a finished case. Throws InputError if the dataset has no clouds,
+/// and naming the file that is missing, has another checksum than in the manifest, or cannot be read.
 CaseData read_case(const Dataset& dataset, const CaseId& id);
 
 }  // namespace tanglebin

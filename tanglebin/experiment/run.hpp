@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
-#include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/experiment/entry.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/scene/scene.hpp"

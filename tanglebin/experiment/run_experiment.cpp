@@ -49,11 +49,11 @@ struct Place {
 
 Lines run_cloud(const Dataset& dataset, const ExperimentSettings& settings, const SeenCase& seen,
                 const Place& place) {
-  const CaseData data = read_case(dataset, seen.scene, seen.scanner);
+  const CaseData data = read_seen_case(dataset, seen);
   const CaseRecord record = dataset.catalogue.record(seen.scene);
   if (std::ranges::none_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; }))
     return failed_runs(record, settings, seen, {FailureOf::scene, "no point of the cloud is on a tube"});
-  const Recipe recipe = recipe_of(dataset, seen.scene, seen.scanner);
+  const Recipe recipe = recipe_seen(dataset, seen);
   return lines_of_runs(settings, seen, [&](const Entry& entry, const RunId& run) -> Lines {
     try {
       const KnownScene known = known_scene(recipe, data, seen.scene, settings.scene);

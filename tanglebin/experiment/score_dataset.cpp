@@ -10,7 +10,7 @@
 namespace tanglebin {
 
 SceneScore score_scene(const Dataset& dataset, const SeenCase& seen, const LabelsDirectory& labels) {
-  const CaseData data = read_case(dataset, seen.scene, seen.scanner);
+  const CaseData data = read_seen_case(dataset, seen);
   SceneScore scene{.seen = seen};
   if (std::ranges::none_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; })) {
     scene.failure = {FailureOf::scene, "no point of the cloud is on a tube"};
@@ -18,7 +18,7 @@ SceneScore score_scene(const Dataset& dataset, const SeenCase& seen, const Label
   }
   try {
     const Entry entry{"labels", labels};
-    const KnownScene known = known_scene(recipe_of(dataset, seen.scene, seen.scanner), seen.scene);
+    const KnownScene known = known_scene(recipe_seen(dataset, seen), seen.scene);
     const RunId run{entry.name, seen.scene, 1, seen.scanner};
     Modelled modelled = model_by(entry, known, data, run, {.ratios = {1}}, {});
     modelled.model.filtered.resize(data.cloud.points.size());

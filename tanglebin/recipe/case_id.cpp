@@ -26,14 +26,6 @@ std::string name_of(const CaseId& id) {
   return fmt::format("{}/{}", folder_name(id.set, id.tubes), id.number);
 }
 
-std::string seen_by(const std::string& scanner, const std::string& what) {
-  return scanner.empty() ? what : what + ", " + scanner;
-}
-
-std::string name_of(const SeenCase& seen) {
-  return seen_by(seen.scanner, name_of(seen.scene));
-}
-
 std::string file_of(const CaseId& id, std::string_view kind, std::string_view extension,
                     std::string_view scanner) {
   return fmt::format("{}/{}{}{}/{}.{}", folder_name(id.set, id.tubes), scanner, scanner.empty() ? "" : "/",

@@ -19,15 +19,6 @@ struct CaseId {
   auto operator<=>(const CaseId&) const = default;
 };
 
-/// A scene as one of its scanners sees it.
-struct SeenCase {
-  CaseId scene;
-  std::string scanner{};  ///< its name; empty for the one [scanner] of a recipe
-
-  // NOLINTNEXTLINE(modernize-use-nullptr): a false alarm of clang-tidy 14
-  auto operator<=>(const SeenCase&) const = default;
-};
-
 /// Every case of a valid recipe: by set, number of tubes (both in the recipe's order) and number. Cases that
 /// draw their number of tubes are by set and number.
 std::vector<CaseId> cases(const Recipe& recipe);
@@ -37,12 +28,6 @@ std::string folder_name(std::string_view set, int tubes);
 
 /// "A10/3".
 std::string name_of(const CaseId& id);
-
-/// What a scanner sees, in words: "A, left" of a scanner that has a name, otherwise "A".
-std::string seen_by(const std::string& scanner, const std::string& what);
-
-/// "A10/3", or "A10/3, left" of a scanner that has a name.
-std::string name_of(const SeenCase& seen);
 
 /// A file of a case, relative to the dataset's directory: "A10/plys/1.ply", or of a scanner that has a name
 /// "A10/left/plys/1.ply".

@@ -38,15 +38,4 @@ std::vector<Scanner> scanners(const Recipe& recipe) {
   return all;
 }
 
-Recipe with_scanner(Recipe recipe, const std::string& name) {
-  const std::vector<Scanner> all = scanners(recipe);
-  const auto found = std::ranges::find(all, name, &Scanner::name);
-  if (found == all.end()) throw InputError({"", 0, "scanner"}, excerpt(name), "a scanner of the recipe");
-  recipe.scanner_name = found->name;
-  recipe.camera = found->camera;
-  recipe.sensor = found->sensor;
-  recipe.further_scanners.clear();
-  return recipe;
-}
-
 }  // namespace tanglebin

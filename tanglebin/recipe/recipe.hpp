@@ -127,9 +127,6 @@ const SetRecipe& set_named(const Recipe& recipe, const std::string& name);
 /// The first scanner and the further ones.
 std::vector<Scanner> scanners(const Recipe& recipe);
 
-/// The recipe with none but the scanner of this name. Throws InputError if there is no such scanner.
-Recipe with_scanner(Recipe recipe, const std::string& name);
-
 /// The numbers of a case, drawn from the recipe's seed, set, number of tubes, case and key: those of the
 /// scene, then those of each tube in turn. Numbers of other sets' tubes are left out.
 std::vector<DrawnNumber> draw(const Recipe& recipe, const CaseId& id);

@@ -25,7 +25,7 @@ std::optional<Model> ModelAgain::operator()(const Entry& entry, const SeenCase& 
                                             const CaseData& data) const {
   const auto& [scene, scanner] = seen;
   const RunId run{entry.name, scene, ratio_to_show(settings_.ratios), scanner};
-  const KnownScene known = known_scene(recipe_of(dataset_, scene, scanner), data, scene, settings_.scene);
+  const KnownScene known = known_scene(recipe_seen(dataset_, seen), data, scene, settings_.scene);
   try {
     return model_by(entry, known, data, run, settings_, scratch_).model;
   } catch (const InputError&) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/report/html.hpp"
 #include "tanglebin/report/published_figures.hpp"
 #include "tanglebin/report/sections.hpp"

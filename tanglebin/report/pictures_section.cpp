@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/report/html.hpp"
 #include "tanglebin/report/sections.hpp"
 #include "tanglebin/report/text.hpp"

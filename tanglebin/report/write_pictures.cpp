@@ -68,7 +68,7 @@ void write_pictures(const std::filesystem::path& directory, const Dataset& datas
   for (const Entry& entry : settings.methods) {
     for (const Example& example : summary.examples(entry.name)) {
       const auto& [scene, scanner] = example.seen;
-      const CaseData data = read_case(dataset, scene, scanner);
+      const CaseData data = read_seen_case(dataset, example.seen);
       const RunId run{entry.name, scene, summary.ratio(), scanner};
       if (const std::optional<Model> model = model_again(entry, example.seen, data))
         lines += draw_example(example, run, directory, data, *model);

@@ -64,7 +64,7 @@ class ShownCase {
 public:
   ShownCase(const Dataset& dataset, const SceneToShow& scene, double ratio)
       : seen_(scene.seen),
-        data_(read_case(dataset, seen_.scene, seen_.scanner)),
+        data_(read_seen_case(dataset, seen_)),
         scene_{.name = fmt::format("{}, ratio {} ({})", name_of(seen_), ratio_text(ratio),
                                    fmt::join(scene.reasons, ", ")),
                .cloud = {},

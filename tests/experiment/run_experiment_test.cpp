@@ -113,7 +113,7 @@ TEST_F(RunExperiment, ModelsTheCloudOfEachScannerAndTellsWhatWasDrawnForTheCase)
   std::size_t line = 0;
   for (const CaseId& id : cases(dataset)) {
     for (const char* scanner : {"left", "right"}) {
-      const CaseData data = read_case(dataset, id, scanner);
+      const CaseData data = read_seen_case(dataset, {id, scanner});
       for (const double ratio : settings_.ratios) {
         const auto json = nlohmann::json::parse(lines[line++]);
         EXPECT_EQ(json.at("scanner"), scanner);
@@ -121,7 +121,7 @@ TEST_F(RunExperiment, ModelsTheCloudOfEachScannerAndTellsWhatWasDrawnForTheCase)
         EXPECT_EQ(json.at("drawn").at("bin.friction").get<double>(), recipe_of(dataset, id).bin.friction);
         const RunId run{"axis", id, ratio, scanner};
         const Model model =
-            model_case(known_scene(recipe_of(dataset, id, scanner), id), data, run, settings_);
+            model_case(known_scene(recipe_seen(dataset, {id, scanner}), id), data, run, settings_);
         EXPECT_EQ(json.at("micro_recall").get<double>(), score_model(data, model).labels.micro_recall);
       }
     }
