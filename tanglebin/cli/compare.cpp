@@ -98,7 +98,10 @@ void compare_results(const CompareArguments& arguments) {
   bool is_below = false;
   for (const auto& [baseline, other] : pairs_to_compare(results, arguments.baseline)) {
     const Comparison comparison = compare(baseline, other);
-    (arguments.json ? print_json : print_text)(comparison);
+    if (arguments.json)
+      print_json(comparison);
+    else
+      print_text(comparison);
     const double difference = comparison.measures.front().difference;
     is_below = is_below || (arguments.fail_below && difference < *arguments.fail_below);
   }

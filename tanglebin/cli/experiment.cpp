@@ -217,8 +217,10 @@ void experiment(const ExperimentArguments& arguments) {
   }
   const ResultsSummary results = summary_of(arguments.out, settings.ratios);
   const Findings findings{results.means(), results.failures(), results.ratio(), seconds_since(start)};
-  const auto report = arguments.json || arguments.progress == ProgressStyle::json ? print_json : print_text;
-  report(arguments, summary, findings);
+  if (arguments.json || arguments.progress == ProgressStyle::json)
+    print_json(arguments, summary, findings);
+  else
+    print_text(arguments, summary, findings);
   for (const FailedModel& failed : summary.failed) {
     print_error("tanglebin: {}: failed: {}\n", name_of(failed.id), failed.reason);
   }

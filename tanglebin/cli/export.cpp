@@ -85,8 +85,10 @@ void export_cases(const ExportArguments& arguments) {
     ProgressReport progress(arguments.progress);
     return export_dataset(dataset, request, progress.observer());
   }();
-  const auto report = arguments.json || arguments.progress == ProgressStyle::json ? print_json : print_text;
-  report(arguments, summary, seconds_since(start));
+  if (arguments.json || arguments.progress == ProgressStyle::json)
+    print_json(arguments, summary, seconds_since(start));
+  else
+    print_text(arguments, summary, seconds_since(start));
   for (const FailedExport& failed : summary.failed)
     print_error("tanglebin: {}: failed: {}\n", name_of(failed.id), failed.reason);
   if (summary.was_stopped()) throw CLI::RuntimeError(exit_interrupted());

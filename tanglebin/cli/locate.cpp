@@ -1,11 +1,11 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
@@ -19,7 +19,6 @@
 namespace tanglebin::cli {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double millimetre = 0.001;
 
 struct LocateArguments {

@@ -2,12 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/checks.hpp"
 #include "tanglebin/cli/cloud_or_tubes.hpp"
@@ -36,7 +36,6 @@ struct Options {
 };
 
 View view_of(const Options& options) {
-  constexpr double degree = std::numbers::pi / 180;
   return {.azimuth = options.azimuth_deg * degree,
           .elevation = options.elevation_deg * degree,
           .width = options.width,

@@ -14,8 +14,8 @@
 namespace tanglebin {
 namespace {
 
-using Vector = Eigen::Matrix<double, confidence_features, 1>;
-using Matrix = Eigen::Matrix<double, confidence_features, confidence_features>;
+using ConfidenceVector = Eigen::Matrix<double, confidence_features, 1>;
+using ConfidenceMatrix = Eigen::Matrix<double, confidence_features, confidence_features>;
 
 /// The points of a modelled tube by their true label.
 using PointsOn = std::map<std::int32_t, std::size_t>;
@@ -31,8 +31,8 @@ bool is_whole(const PointsOn& points, const PointsOn& all) {
   });
 }
 
-Eigen::Map<const Vector> vector_of(const ConfidenceFeatures& features) {
-  return Eigen::Map<const Vector>(features.data());
+Eigen::Map<const ConfidenceVector> vector_of(const ConfidenceFeatures& features) {
+  return Eigen::Map<const ConfidenceVector>(features.data());
 }
 
 }  // namespace
@@ -60,17 +60,17 @@ ConfidenceFeatures learn_confidence(const std::vector<TubeExample>& examples) {
   constexpr double ridge = 0.1;
   constexpr int steps = 50;
   ConfidenceFeatures weights{};
-  Eigen::Map<Vector> vector(weights.data());
+  Eigen::Map<ConfidenceVector> vector(weights.data());
   for (int i = 0; i < steps; ++i) {
-    Vector slope = -ridge * vector;
-    Matrix curvature = ridge * Matrix::Identity();
+    ConfidenceVector slope = -ridge * vector;
+    ConfidenceMatrix curvature = ridge * ConfidenceMatrix::Identity();
     for (const auto& [features, is_right] : examples) {
       const double probability = confidence(features, weights);
       slope += ((is_right ? 1 : 0) - probability) * vector_of(features);
       curvature += probability * (1 - probability) * vector_of(features) * vector_of(features).transpose();
     }
     // Newton's step; a long one could overshoot.
-    const Vector step = curvature.ldlt().solve(slope);
+    const ConfidenceVector step = curvature.ldlt().solve(slope);
     constexpr double longest = 2;
     vector += step * std::min(1.0, longest / step.norm());
   }

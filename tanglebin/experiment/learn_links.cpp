@@ -85,8 +85,8 @@ private:
 
 // The weights of all kinds, one after the other.
 constexpr std::size_t parameters = link_kinds.size() * link_features;
-using Vector = Eigen::Matrix<double, parameters, 1>;
-using Matrix = Eigen::Matrix<double, parameters, parameters>;
+using LinkVector = Eigen::Matrix<double, parameters, 1>;
+using LinkMatrix = Eigen::Matrix<double, parameters, parameters>;
 
 Eigen::Index first_of(LinkKind kind) {
   return static_cast<Eigen::Index>(kind) * static_cast<Eigen::Index>(link_features);
@@ -113,20 +113,20 @@ double log_of_sum(const std::vector<double>& log_odds) {
 /// the squared weights keeps them finite.
 struct Likelihood {
   double value = 0;
-  Vector slope = Vector::Zero();
-  Matrix curvature = Matrix::Zero();
+  LinkVector slope = LinkVector::Zero();
+  LinkMatrix curvature = LinkMatrix::Zero();
 
-  Likelihood(const std::vector<EndExample>& ends, const Vector& weights)
+  Likelihood(const std::vector<EndExample>& ends, const LinkVector& weights)
       : value(-ridge / 2 * weights.squaredNorm()),
         slope(-ridge * weights),
-        curvature(ridge * Matrix::Identity()) {
+        curvature(ridge * LinkMatrix::Identity()) {
     for (const EndExample& end : ends) add(end, weights);
   }
 
 private:
   static constexpr double ridge = 1e-3;
 
-  void add(const EndExample& end, const Vector& weights) {
+  void add(const EndExample& end, const LinkVector& weights) {
     std::vector<double> log_odds = {0};  // of no link, then of each link
     std::vector<double> log_odds_of_true;
     for (const LinkExample& link : end) {
@@ -137,7 +137,7 @@ private:
     const double of_all = log_of_sum(log_odds);
     const double of_true = log_of_sum(log_odds_of_true);
     value += of_true - of_all;
-    Vector mean = Vector::Zero();
+    LinkVector mean = LinkVector::Zero();
     for (std::size_t i = 0; i < end.size(); ++i) {
       const FeatureVector features = features_of(end[i]);
       const double probability = std::exp(log_odds[i + 1] - of_all);
@@ -152,7 +152,7 @@ private:
   }
 };
 
-bool is_small(const Vector& step) {
+bool is_small(const LinkVector& step) {
   constexpr double small = 1e-9;
   return step.cwiseAbs().maxCoeff() < small;
 }
@@ -185,11 +185,11 @@ std::vector<EndExample> end_examples(const Dataset& dataset, const CaseId& id) {
 
 LinkWeights learn_weights(const std::vector<EndExample>& ends) {
   constexpr int steps_max = 1000;
-  Vector weights = Vector::Zero();
+  LinkVector weights = LinkVector::Zero();
   Likelihood likelihood(ends, weights);
   for (int i = 0; i < steps_max; ++i) {
     // Newton's step, shortened so that it does not overshoot.
-    Vector step = likelihood.curvature.ldlt().solve(likelihood.slope);
+    LinkVector step = likelihood.curvature.ldlt().solve(likelihood.slope);
     Likelihood next(ends, weights + step);
     while (next.value < likelihood.value && !is_small(step)) {
       step /= 2;

@@ -1,5 +1,7 @@
 #include "tanglebin/experiment/tables.hpp"
 
+#include <fmt/ranges.h>
+
 #include <string>
 #include <vector>
 
@@ -65,18 +67,16 @@ std::string cells(const Json& json, const std::vector<std::string>& columns) {
   return text;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  return text;
+std::string header_of(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ","));
 }
 
 }  // namespace
 
 ResultTables::ResultTables(const std::filesystem::path& directory, const std::filesystem::path& staging)
     : runs_(directory / "results.csv", staging), tubes_(directory / "tubes.csv", staging) {
-  runs_.append(joined(result_columns()) + "\r\n");
-  tubes_.append(joined(run_columns()) + "," + joined(tube_columns()) + "\r\n");
+  runs_.append(header_of(result_columns()) + "\r\n");
+  tubes_.append(header_of(run_columns()) + "," + header_of(tube_columns()) + "\r\n");
 }
 
 void ResultTables::add(const JsonRecord& result) {

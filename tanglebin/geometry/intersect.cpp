@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/geometry/interval.hpp"
 
 namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The part of the line start + t direction (a unit vector) inside the sphere around the origin.
 Interval inside_sphere(const Vector3d& start, const Vector3d& direction, double radius) {

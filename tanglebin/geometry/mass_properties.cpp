@@ -5,10 +5,10 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numbers>
 #include <vector>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/geometry/interval.hpp"
 
 // Each capsule is cut into thin rods parallel to its axis. A rod ends at the capsule's surface and leaves out
@@ -24,8 +24,6 @@ namespace {
 
 using Rule = boost::math::quadrature::gauss<double, 10>;
 constexpr int azimuths = 24;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Line {
   Eigen::Vector3d origin;

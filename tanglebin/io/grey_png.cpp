@@ -10,6 +10,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/io/png_errors.hpp"
 
 namespace tanglebin {
 namespace {
@@ -19,20 +20,10 @@ static_assert(std::endian::native == std::endian::little, "what png_set_swap() i
 // Deflate makes at most 258 bytes of two bits (RFC 1951).
 constexpr std::size_t most_expansion = 1032;
 
-// libpng is C and reports errors with a jump back to the function that called setjmp(). So no exception may
-// pass through it, and everything that owns memory belongs to that function's caller.
-
 struct Source {
   std::string_view rest;
   std::string error;
 };
-
-[[noreturn]] void report_error(png_structp png, png_const_charp message) noexcept {
-  static_cast<Source*>(png_get_error_ptr(png))->error = message;
-  png_longjmp(png, 1);
-}
-
-void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) noexcept {}
 
 void take_bytes(png_structp png, png_bytep to, std::size_t size) {
   std::string_view& rest = static_cast<Source*>(png_get_io_ptr(png))->rest;
@@ -63,7 +54,8 @@ bool read_rows(png_structp png, png_infop info, std::vector<png_bytep>& rows) {
 class PngReader {
 public:
   explicit PngReader(Source& source)
-      : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, report_error, ignore_warning)),
+      : png_(
+            png_create_read_struct(PNG_LIBPNG_VER_STRING, &source.error, keep_png_error, ignore_png_warning)),
         info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {
     if (info_ == nullptr) {
       png_destroy_read_struct(&png_, nullptr, nullptr);

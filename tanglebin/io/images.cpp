@@ -14,6 +14,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/geometry/labels.hpp"
+#include "tanglebin/io/png_errors.hpp"
 
 namespace tanglebin {
 namespace {
@@ -27,21 +28,10 @@ struct RawImage {
   std::vector<png_byte> bytes;
 };
 
-// libpng is C and reports errors with a jump back to write_image(). So no exception may pass through it
-// (running out of memory in a callback ends the program), and everything that owns memory belongs to
-// write_image()'s caller.
-
 struct Sink {
   std::string png;
   std::string error;
 };
-
-[[noreturn]] void report_error(png_structp png, png_const_charp message) noexcept {
-  static_cast<Sink*>(png_get_error_ptr(png))->error = message;
-  png_longjmp(png, 1);
-}
-
-void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) noexcept {}
 
 void append(png_structp png, png_bytep data, std::size_t size) noexcept {
   static_cast<Sink*>(png_get_io_ptr(png))->png.append(reinterpret_cast<const char*>(data), size);
@@ -70,7 +60,7 @@ bool write_image(png_structp png, png_infop info, const RawImage& image) {
 class PngWriter {
 public:
   explicit PngWriter(Sink& sink)
-      : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, report_error, ignore_warning)),
+      : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink.error, keep_png_error, ignore_png_warning)),
         info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {
     if (info_ == nullptr) {
       png_destroy_write_struct(&png_, nullptr);

@@ -45,7 +45,7 @@ struct Entry {
   std::vector<std::string> words;
 };
 
-struct Header {
+struct PcdHeader {
   Element points;
   std::size_t width = 0;
   std::size_t height = 0;
@@ -235,10 +235,10 @@ Body read_body_kind(const Entries& entries) {
   throw InputError(entries.place("DATA"), excerpt(word), "ascii, binary or binary_compressed");
 }
 
-Header read_header(CloudInput& input) {
+PcdHeader read_pcd_header(CloudInput& input) {
   const Entries entries = read_entries(input);
   check_version(entries);
-  Header header;
+  PcdHeader header;
   header.width = entries.number("WIDTH");
   header.height = entries.number("HEIGHT");
   header.points = {"POINTS", header.width * header.height, read_fields(entries)};
@@ -307,7 +307,7 @@ void expect_padding(CloudInput& input) {
   }
 }
 
-PointCloud read_points(CloudInput& input, const Header& header) {
+PointCloud read_points(CloudInput& input, const PcdHeader& header) {
   const Encoding encoding = header.body == Body::ascii ? Encoding::ascii : Encoding::little_endian;
   PointDecoder decoder(input, header.points, encoding);
   if (header.body == Body::binary_compressed) {
@@ -406,7 +406,7 @@ std::vector<std::byte> compressed(const std::vector<std::byte>& bytes) {
 
 PointCloud read_pcd(std::istream& in, const std::string& name) {
   CloudInput input(in, name);
-  const Header header = read_header(input);
+  const PcdHeader header = read_pcd_header(input);
   PointCloud cloud = read_points(input, header);
   cloud.width = header.width;
   cloud.height = header.height;

@@ -27,7 +27,7 @@ using Words = std::vector<std::string_view>;
 
 constexpr std::string_view vertex = "vertex";
 
-struct Header {
+struct PlyHeader {
   std::optional<Encoding> encoding;
   std::vector<Element> elements;
   std::optional<std::uint32_t> columns;  // of an organized cloud
@@ -129,7 +129,7 @@ void recognize(const CloudInput& input, Property& property, std::string_view typ
   }
 }
 
-void add_element(const CloudInput& input, const Words& words, Header& header) {
+void add_element(const CloudInput& input, const Words& words, PlyHeader& header) {
   const Element element = parse_element(input, words);
   if (std::ranges::find(header.elements, element.name, &Element::name) != header.elements.end()) {
     throw InputError(input.place("element " + element.name), "given twice");
@@ -137,7 +137,7 @@ void add_element(const CloudInput& input, const Words& words, Header& header) {
   header.elements.push_back(element);
 }
 
-void add_property(const CloudInput& input, const Words& words, Header& header) {
+void add_property(const CloudInput& input, const Words& words, PlyHeader& header) {
   Property property = parse_property(input, words);
   if (header.elements.empty()) throw InputError(input.place(property.name), "property before any element");
   Element& element = header.elements.back();
@@ -148,14 +148,14 @@ void add_property(const CloudInput& input, const Words& words, Header& header) {
   element.properties.push_back(property);
 }
 
-void add_format(const CloudInput& input, const Words& words, Header& header) {
+void add_format(const CloudInput& input, const Words& words, PlyHeader& header) {
   if (header.encoding) throw InputError(input.place("format"), "given twice");
   header.encoding = parse_format(input, words);
 }
 
 // PCL's and EpicEye's mark of an organized cloud, after Stanford's range grids: "obj_info num_cols 640". Any
 // other obj_info is free text.
-void note_grid(const Words& words, Header& header) {
+void note_grid(const Words& words, PlyHeader& header) {
   if (words.size() != 3) return;
   if (words[1] == "num_cols") header.columns = to_number<std::uint32_t>(words[2]);
   if (words[1] == "num_rows") header.rows = to_number<std::uint32_t>(words[2]);
@@ -173,7 +173,7 @@ void expect_property(const CloudInput& input, const Element& vertices, std::stri
   }
 }
 
-void check_vertices(const CloudInput& input, const Header& header) {
+void check_vertices(const CloudInput& input, const PlyHeader& header) {
   const auto vertices = std::ranges::find(header.elements, vertex, &Element::name);
   if (vertices == header.elements.end()) throw InputError(input.place_in_file(), "has no element vertex");
   for (const std::string_view name : {"x", "y", "z"}) expect_property(input, *vertices, name);
@@ -183,7 +183,7 @@ void check_vertices(const CloudInput& input, const Header& header) {
   for (const std::string_view name : {"red", "green", "blue"}) expect_property(input, *vertices, name);
 }
 
-void check_header(const CloudInput& input, const Header& header) {
+void check_header(const CloudInput& input, const PlyHeader& header) {
   if (!header.encoding) throw InputError(input.place_in_file(), "has no format line");
   for (const Element& element : header.elements) {
     // Otherwise any number of them would take no data at all.
@@ -194,9 +194,9 @@ void check_header(const CloudInput& input, const Header& header) {
   check_vertices(input, header);
 }
 
-Header read_header(CloudInput& input) {
+PlyHeader read_ply_header(CloudInput& input) {
   expect_magic(input);
-  Header header;
+  PlyHeader header;
   while (const auto line = input.next_line()) {
     const Words words = words_of(*line);
     const std::string_view keyword = words.empty() ? std::string_view() : words.front();
@@ -242,7 +242,7 @@ void expect_end(CloudInput& input, Encoding encoding) {
 }
 
 // Range grids say how large they are too, but have vertices for the measured places only.
-void arrange(PointCloud& cloud, const Header& header) {
+void arrange(PointCloud& cloud, const PlyHeader& header) {
   if (!header.columns || !header.rows || cloud.points.empty()) return;
   if (std::size_t{*header.columns} * *header.rows != cloud.points.size()) return;
   cloud.width = *header.columns;
@@ -295,7 +295,7 @@ std::size_t size_of_one(const std::vector<T>& values) {
 
 PointCloud read_ply(std::istream& in, const std::string& name) {
   CloudInput input(in, name);
-  const Header header = read_header(input);
+  const PlyHeader header = read_ply_header(input);
   PointCloud cloud;
   for (const Element& element : header.elements) {
     if (element.name == vertex) {

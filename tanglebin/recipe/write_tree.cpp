@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/recipe/randomization.hpp"
 #include "tanglebin/recipe/recipe_fields.hpp"
 #include "tanglebin/recipe/recipe_tree.hpp"
@@ -21,7 +22,6 @@ namespace {
 // The shortest degrees that read_recipe turns into exactly these radians. If the radians came from degrees,
 // there are some: rounding puts them at most two doubles from the quotient.
 double degrees_from_radians(double radians) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double nearest = radians / radians_from_degrees(1);
   const double below = std::nextafter(nearest, -infinity);
   const double above = std::nextafter(nearest, infinity);

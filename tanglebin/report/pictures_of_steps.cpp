@@ -1,7 +1,6 @@
 #include "tanglebin/report/pictures_of_steps.hpp"
 
-#include <numbers>
-
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/report/picture.hpp"
@@ -10,7 +9,6 @@ namespace tanglebin {
 namespace {
 
 View nearly_from_above() {
-  constexpr double degree = std::numbers::pi / 180;
   return {.azimuth = -90 * degree, .elevation = 75 * degree};
 }
 

@@ -26,29 +26,31 @@ struct RecallLine {
 };
 
 /// The horizontal axis.
-struct Axis {
+struct RecallAxis {
   std::string label;
   double (*x)(const RunScore&);
   std::optional<double> (*published)(const std::string& set, double x);
 };
 
-const Axis tubes_axis = {
+const RecallAxis tubes_axis = {
     .label = "Tubes",
     .x = [](const RunScore& score) { return static_cast<double>(tubes_of(score)); },
     .published = [](const std::string& set,
                     double x) { return published_micro_recall(set, static_cast<int>(x)); }};
 
-const Axis ratio_axis = {.label = "Ratio",
-                         .x = [](const RunScore& score) { return score.run.ratio; },
-                         .published = [](const std::string&, double) { return std::optional<double>(); }};
+const RecallAxis ratio_axis = {
+    .label = "Ratio",
+    .x = [](const RunScore& score) { return score.run.ratio; },
+    .published = [](const std::string&, double) { return std::optional<double>(); }};
 
 /// The paper's number, if the recipe is the paper's.
-std::optional<double> published(const Results& results, const Axis& axis, const std::string& set, double x) {
+std::optional<double> published(const Results& results, const RecallAxis& axis, const std::string& set,
+                                double x) {
   return results.is_papers ? axis.published(set, x) : std::nullopt;
 }
 
 RecallLine line_of(const Results& results, const std::vector<RunScore>& scores, const RunGroup& group,
-                   const Axis& axis) {
+                   const RecallAxis& axis) {
   const auto runs = chosen(scores, [&](const RunScore& score) { return is_of(score, group); });
   RecallLine line{.name = group_text(group, results), .points = {}};
   for (const double x : distinct(runs, axis.x)) {
@@ -63,7 +65,7 @@ RecallLine line_of(const Results& results, const std::vector<RunScore>& scores, 
 }
 
 std::vector<RecallLine> lines_of(const Results& results, const std::vector<RunScore>& scores,
-                                 const Axis& axis) {
+                                 const RecallAxis& axis) {
   std::vector<RecallLine> lines;
   for (const RunGroup& group : groups_of(scores)) {
     lines.push_back(line_of(results, scores, group, axis));
@@ -90,7 +92,7 @@ PlotSeries measured_series(const RecallLine& line) {
 
 /// The paper's numbers, shared by all methods.
 std::vector<PlotSeries> published_series(const Results& results, const std::vector<RunScore>& scores,
-                                         const Axis& axis) {
+                                         const RecallAxis& axis) {
   std::vector<PlotSeries> result;
   for (const std::string& set : distinct(scores, [](const RunScore& score) { return score.run.id.set; })) {
     PlotSeries series{.name = fmt::format("Set {}, published", set), .points = {}, .is_published = true};
@@ -113,7 +115,8 @@ std::string in_words(const RecallLine& line) {
 }
 
 std::string plot_of(const Results& results, const std::vector<RunScore>& scores,
-                    const std::vector<RecallLine>& lines, const Axis& axis, const std::string& x_label) {
+                    const std::vector<RecallLine>& lines, const RecallAxis& axis,
+                    const std::string& x_label) {
   Plot plot{.text = "Mean micro-recall by " + x_label + ".",
             .x_label = x_label,
             .y_label = "micro-recall",
@@ -151,7 +154,7 @@ std::string leading(const std::string& figure) {
   return figure.empty() ? "" : fmt::format("<b>{}.</b> ", figure);
 }
 
-HtmlTable table_of(const RecallLine& line, const Axis& axis, const std::string& figure) {
+HtmlTable table_of(const RecallLine& line, const RecallAxis& axis, const std::string& figure) {
   HtmlTable table{.caption_html = fmt::format("<b>{}{}{}.</b> Micro-recall of the cases.", figure,
                                               figure.empty() ? "" : ", ", escaped(line.name)),
                   .columns = {{.heading = axis.label, .group = ""}},
@@ -172,7 +175,8 @@ HtmlTable table_of(const RecallLine& line, const Axis& axis, const std::string& 
   return table;
 }
 
-std::string tables_of(const std::vector<RecallLine>& lines, const Axis& axis, const std::string& figure) {
+std::string tables_of(const std::vector<RecallLine>& lines, const RecallAxis& axis,
+                      const std::string& figure) {
   std::string content = "<div class=\"side-by-side\">\n";
   for (const RecallLine& line : lines) content += html(table_of(line, axis, figure));
   return content + "</div>\n";

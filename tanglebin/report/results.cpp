@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/experiment/run_failure.hpp"
@@ -20,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_ratio = std::numeric_limits<double>::min();
 
 double share_of(const JsonRecord& record, const std::string& field) {

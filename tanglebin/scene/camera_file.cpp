@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string_view>
 #include <vector>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/geometry/rigid.hpp"
@@ -18,7 +18,6 @@
 namespace tanglebin {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double metres_per_millimetre = 0.001;
 
 std::vector<double> numbers(const JsonRecord& record, const std::string& field, std::size_t count) {

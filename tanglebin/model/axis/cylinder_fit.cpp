@@ -14,7 +14,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::size_t points_min = 12;
+constexpr std::size_t window_points_min = 12;
 
 /// Points around a point, m, relative to it.
 struct Window {
@@ -72,7 +72,7 @@ std::optional<Vector3d> normal_of(const Window& around, double distance) {
     products += point * point.transpose();
     ++count;
   }
-  if (count < static_cast<double>(points_min) / 2) return std::nullopt;
+  if (count < static_cast<double>(window_points_min) / 2) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(products - sum * sum.transpose() / count);
   const Vector3d normal = solver.eigenvectors().col(0);
   return normal.dot(around.view) < 0 ? Vector3d(-normal) : normal;
@@ -99,7 +99,7 @@ std::optional<Cylinder> first_guess(const Window& around, double reach) {
     right_side += point.dot(*normal) / reach * terms;
     ++count;
   }
-  if (count < points_min) return std::nullopt;
+  if (count < window_points_min) return std::nullopt;
   const Terms quadric = products.ldlt().solve(right_side);
   Eigen::Matrix2d curvature;
   curvature << quadric[3], quadric[4], quadric[4], quadric[5];
@@ -229,7 +229,7 @@ bool is_cylinder(const Cylinder& cylinder, const Inliers& inliers, const Vector3
 
 std::optional<CylinderFit> fit_cylinder(const PixelGrid& grid, std::size_t item, double reach) {
   const Window around = window_at(grid, item, reach);
-  if (around.points.size() < points_min) return std::nullopt;
+  if (around.points.size() < window_points_min) return std::nullopt;
   std::optional<Cylinder> cylinder = first_guess(around, reach);
   if (!cylinder) return std::nullopt;
 
@@ -240,14 +240,16 @@ std::optional<CylinderFit> fit_cylinder(const PixelGrid& grid, std::size_t item,
   Inliers inliers = inliers_of(around, *cylinder, residual_max);
   FiveByFive inverse;
   for (int i = 0; i < iterations; ++i) {
-    if (inliers.all.size() < points_min || 2 * inliers.all.size() < inliers.facing) return std::nullopt;
+    if (inliers.all.size() < window_points_min || 2 * inliers.all.size() < inliers.facing)
+      return std::nullopt;
     inverse = improve(*cylinder, inliers, around.view);
     constexpr double most = 2;  // reaches, either way
     if (!(cylinder->radius > reach / most && cylinder->radius < reach * most)) return std::nullopt;
     inliers = inliers_of(around, *cylinder, residual_max);
     residual_max = std::min(residual_max, std::max(sigmas * inliers.noise, 1e-3 * reach));
   }
-  if (inliers.all.size() < points_min || !is_cylinder(*cylinder, inliers, around.view)) return std::nullopt;
+  if (inliers.all.size() < window_points_min || !is_cylinder(*cylinder, inliers, around.view))
+    return std::nullopt;
   return CylinderFit{cylinder->radius, inliers.noise * std::sqrt(inverse(4, 4))};
 }
 

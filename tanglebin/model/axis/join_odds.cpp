@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+
+#include "tanglebin/base/constants.hpp"
 
 namespace tanglebin {
 namespace {
-
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 /// The links at each end of the fragments. Ends are numbered through all fragments.
 class LinksAtEnds {
@@ -24,7 +23,7 @@ public:
       ends += fragment.ends.size();
     }
     at_end_.resize(ends);
-    chosen_at_end_.resize(ends, none);
+    chosen_at_end_.resize(ends, no_index);
     for (std::size_t i = 0; i < links.size(); ++i) {
       for (const std::size_t end : ends_of(i)) at_end_[end].push_back(i);
     }
@@ -52,7 +51,7 @@ public:
 private:
   /// One link instead of another, and what follows from it.
   struct Exchange {
-    std::array<std::size_t, 2> dropped;  ///< links; the second may be none
+    std::array<std::size_t, 2> dropped;  ///< links; the second may be missing
     std::array<std::size_t, 2> added;    ///< the same
     double loss;                         ///< of weight
   };
@@ -68,19 +67,20 @@ private:
     for (const std::size_t other : ends_of(link)) {
       if (other != end) return other;
     }
-    return none;
+    return no_index;
   }
 
-  double weight_of(std::size_t link) const { return link == none ? 0 : links_[link].weight; }
+  double weight_of(std::size_t link) const { return link == no_index ? 0 : links_[link].weight; }
 
   // Takes `other` at this end instead of `link`. What `other` displaces at its far end is dropped, too, and
   // the two ends that this leaves are linked if they can be.
   Exchange exchange_of(std::size_t link, std::size_t end, std::size_t other) const {
     const std::size_t far_end = other_end(other, end);
-    const std::size_t displaced = far_end == none ? none : chosen_at_end_[far_end];
+    const std::size_t displaced = far_end == no_index ? no_index : chosen_at_end_[far_end];
     const std::size_t left = other_end(link, end);
-    const std::size_t also_left = displaced == none ? none : other_end(displaced, far_end);
-    const std::size_t closing = left == none || also_left == none ? none : link_between(left, also_left);
+    const std::size_t also_left = displaced == no_index ? no_index : other_end(displaced, far_end);
+    const std::size_t closing =
+        left == no_index || also_left == no_index ? no_index : link_between(left, also_left);
     return {{link, displaced},
             {other, closing},
             weight_of(link) + weight_of(displaced) - weight_of(other) - weight_of(closing)};
@@ -90,12 +90,12 @@ private:
     for (const std::size_t link : at_end_[end]) {
       if (other_end(link, end) == other) return link;
     }
-    return none;
+    return no_index;
   }
 
   bool is_possible(const Exchange& exchange, double length_max) const {
     return std::ranges::all_of(exchange.added, [&](std::size_t link) {
-      return link == none || is_possible(link, exchange, length_max);
+      return link == no_index || is_possible(link, exchange, length_max);
     });
   }
 

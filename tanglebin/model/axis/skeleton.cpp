@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <queue>
 #include <unordered_map>
 #include <utility>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/median.hpp"
 #include "tanglebin/model/axis/voxel.hpp"
 
@@ -19,8 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3i;
-
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 struct Voxel {
   Vector3i key;
@@ -48,12 +46,12 @@ std::array<Vector3i, 13> half_of_the_neighbours() {
 
 struct VoxelGrid {
   std::vector<Voxel> voxels;
-  std::vector<std::size_t> of_points;  // for each point its voxel; none if the point is not finite
+  std::vector<std::size_t> of_points;  // for each point its voxel; no_index if the point is not finite
 };
 
 VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
                       double size) {
-  VoxelGrid grid{{}, std::vector(points.size(), none)};
+  VoxelGrid grid{{}, std::vector(points.size(), no_index)};
   std::unordered_map<std::uint64_t, std::size_t> at;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) continue;
@@ -112,14 +110,14 @@ std::vector<std::vector<std::size_t>> connected_components(const std::vector<Vox
 class TreeMaker {
 public:
   TreeMaker(const std::vector<Voxel>& voxels, double step)
-      : voxels_(voxels), step_(step), distances_(voxels.size()), nodes_(voxels.size(), none) {}
+      : voxels_(voxels), step_(step), distances_(voxels.size()), nodes_(voxels.size(), no_index) {}
 
   /// The node of the last tree that a voxel of its component belongs to.
   std::size_t node_of(std::size_t voxel) const { return nodes_[voxel]; }
 
   // The nodes are level sets of the distance from one end, as in a Reeb graph.
   Skeleton tree(std::vector<std::size_t> component) {
-    for (const std::size_t voxel : component) nodes_[voxel] = none;
+    for (const std::size_t voxel : component) nodes_[voxel] = no_index;
     measure_from(component.front(), component);
     const std::size_t end =
         *std::ranges::max_element(component, {}, [&](std::size_t v) { return distances_[v]; });
@@ -127,7 +125,7 @@ public:
     std::ranges::stable_sort(component, {}, [&](std::size_t voxel) { return distances_[voxel]; });
     Skeleton result;
     for (const std::size_t voxel : component) {
-      if (nodes_[voxel] == none) add_node(result, voxel);
+      if (nodes_[voxel] == no_index) add_node(result, voxel);
     }
     return result;
   }
@@ -135,7 +133,7 @@ public:
 private:
   // Dijkstra's algorithm.
   void measure_from(std::size_t start, const std::vector<std::size_t>& component) {
-    for (const std::size_t voxel : component) distances_[voxel] = std::numeric_limits<double>::infinity();
+    for (const std::size_t voxel : component) distances_[voxel] = infinity;
     using Entry = std::pair<double, std::size_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     distances_[start] = 0;
@@ -159,7 +157,7 @@ private:
   // the level below that it touches.
   void add_node(Skeleton& skeleton, std::size_t first) {
     const std::size_t node = skeleton.nodes.size();
-    std::size_t parent = none;
+    std::size_t parent = no_index;
     Vector3d sum = Vector3d::Zero();
     std::size_t count = 0;
     std::vector<std::size_t> members{first};
@@ -170,13 +168,13 @@ private:
       count += voxel.points;
       for (const std::size_t neighbour : voxel.neighbours) {
         if (level(neighbour) < level(first)) parent = std::min(parent, nodes_[neighbour]);
-        if (level(neighbour) != level(first) || nodes_[neighbour] != none) continue;
+        if (level(neighbour) != level(first) || nodes_[neighbour] != no_index) continue;
         nodes_[neighbour] = node;
         members.push_back(neighbour);
       }
     }
     skeleton.nodes.emplace_back(sum / static_cast<double>(count));
-    skeleton.parents.push_back(parent == none ? 0 : parent);
+    skeleton.parents.push_back(parent == no_index ? 0 : parent);
   }
 
   const std::vector<Voxel>& voxels_;
@@ -193,12 +191,12 @@ public:
       : whole_(whole),
         branch_min_(branch_min),
         below_(whole.nodes.size(), 0),
-        next_(whole.nodes.size(), none),
+        next_(whole.nodes.size(), no_index),
         kept_(whole.nodes.size()) {
     // Children come after their parents, so everything below a node is known before the node.
     for (std::size_t node = whole.nodes.size(); node-- > 1;) {
       const std::size_t parent = whole.parents[node];
-      if (next_[parent] != none && through(node) <= below_[parent]) continue;
+      if (next_[parent] != no_index && through(node) <= below_[parent]) continue;
       below_[parent] = through(node);
       next_[parent] = node;
     }
@@ -250,7 +248,7 @@ private:
   }
 
   std::size_t tip_of(std::size_t node) const {
-    while (next_[node] != none) node = next_[node];
+    while (next_[node] != no_index) node = next_[node];
     return node;
   }
 
@@ -263,13 +261,13 @@ private:
 
   // Keeps the longest path from a node down to a tip.
   void keep(std::size_t node) {
-    for (; node != none; node = next_[node]) kept_[node] = true;
+    for (; node != no_index; node = next_[node]) kept_[node] = true;
   }
 
   const Skeleton& whole_;
   double branch_min_;
   std::vector<double> below_;      // m, the longest path down from each node
-  std::vector<std::size_t> next_;  // first node of that path; none at a tip
+  std::vector<std::size_t> next_;  // first node of that path; no_index at a tip
   std::vector<bool> kept_;
 };
 
@@ -281,7 +279,7 @@ public:
         settings_(settings),
         maker_(grid.voxels, step),
         seen_(grid.voxels.size()),
-        skeleton_of_(grid.voxels.size(), none) {}
+        skeleton_of_(grid.voxels.size(), no_index) {}
 
   void cut(const std::vector<std::size_t>& members) {
     for (const std::vector<std::size_t>& component : connected_components(grid_.voxels, members, seen_))
@@ -290,9 +288,9 @@ public:
 
   std::vector<Skeleton> skeletons() {
     for (std::size_t i = 0; i < grid_.of_points.size(); ++i) {
-      if (grid_.of_points[i] == none) continue;
+      if (grid_.of_points[i] == no_index) continue;
       const std::size_t skeleton = skeleton_of_[grid_.of_points[i]];
-      if (skeleton != none) skeletons_[skeleton].points.push_back(i);
+      if (skeleton != no_index) skeletons_[skeleton].points.push_back(i);
     }
     return std::move(skeletons_);
   }
@@ -408,7 +406,7 @@ private:
   const CutSettings& settings_;
   TreeMaker maker_;
   std::vector<bool> seen_;
-  std::vector<std::size_t> skeleton_of_;  // of each voxel; none if it is in none
+  std::vector<std::size_t> skeleton_of_;  // of each voxel; no_index if it is in none
   std::vector<Skeleton> skeletons_;
 };
 
@@ -424,7 +422,7 @@ std::vector<Skeleton> find_skeletons(const std::vector<Eigen::Vector3f>& points,
                                      double branch_min) {
   return find_skeletons(points, {}, voxel, step,
                         {.branch_min = branch_min,
-                         .spread_max = std::numeric_limits<double>::infinity(),
+                         .spread_max = infinity,
                          .share_min = 0,
                          .weak_max = 0,
                          .parallel_max = 1,

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/geometry/capsule.hpp"
 #include "tanglebin/model/axis/assemble.hpp"
 #include "tanglebin/model/axis/line_tree.hpp"
@@ -15,21 +15,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
 // Ramer–Douglas–Peucker: marks the nodes of a path, between its first and last, that are needed to stay
 // within the tolerance of all nodes.
 void mark_needed(const std::vector<Vector3d>& nodes, const std::vector<std::size_t>& path, std::size_t first,
                  std::size_t last, double tolerance, std::vector<bool>& needed) {
   double farthest = tolerance;
-  std::size_t at = none;
+  std::size_t at = no_index;
   for (std::size_t i = first + 1; i < last; ++i) {
     const double distance = axis_distance({nodes[path[first]], nodes[path[last]], 0}, nodes[path[i]]);
     if (distance <= farthest) continue;
     farthest = distance;
     at = i;
   }
-  if (at == none) return;
+  if (at == no_index) return;
   needed[path[at]] = true;
   mark_needed(nodes, path, first, at, tolerance, needed);
   mark_needed(nodes, path, at, last, tolerance, needed);
@@ -53,7 +51,7 @@ std::vector<std::size_t> needed_nodes(const LineTree& line, const std::vector<st
 LineTree simplified(const LineTree& line, double tolerance) {
   const Paths paths(line);
   LineTree result;
-  std::vector<std::size_t> new_index(line.nodes.size(), none);
+  std::vector<std::size_t> new_index(line.nodes.size(), no_index);
   const auto add = [&](std::size_t node) {
     new_index[node] = result.nodes.size();
     result.nodes.push_back(line.nodes[node]);
@@ -79,8 +77,8 @@ struct Foot {
 };
 
 Foot foot_of(const LineTree& line, const Vector3d& point) {
-  Foot foot{none, 0, {}};
-  double nearest = std::numeric_limits<double>::infinity();
+  Foot foot{no_index, 0, {}};
+  double nearest = infinity;
   for (std::size_t edge = 0; edge < line.edges.size(); ++edge) {
     const Vector3d& a = line.nodes[line.edges[edge][0]];
     const Vector3d& b = line.nodes[line.edges[edge][1]];

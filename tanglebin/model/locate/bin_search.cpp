@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/model/locate/bin_parts.hpp"
 
 namespace tanglebin {
@@ -16,8 +17,6 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// A pose with the score of its agreement with the view.
 struct Scored {
@@ -55,13 +54,13 @@ Vector3d middle_of(const View& view, const std::vector<std::size_t>& pixels) {
   return sum / static_cast<double>(pixels.size());
 }
 
-Plan plan_of(const View& view, const std::vector<std::size_t>& pixels, const std::vector<Patch>& patches,
+Plan plan_of(const View& view, const std::vector<std::size_t>& pixels, const std::vector<FlatPatch>& patches,
              const Isometry3d& frame, const Bin& bin, double closeness) {
   constexpr double steep = 0.4;  // largest cosine between a wall's normal and the vertical
   Plan plan{.frame = frame, .rim = {}, .floor = {}, .walls = {}};
   const Isometry3d from_camera = frame.inverse(Eigen::Isometry);
   double patch_area = 0;
-  for (const Patch& patch : patches) patch_area += patch.area;
+  for (const FlatPatch& patch : patches) patch_area += patch.area;
   for (const std::size_t pixel : pixels) {
     const Vector3d point = from_camera * view.points[pixel].cast<double>();
     if (std::abs(point.z() - bin.height) < closeness) plan.rim.emplace_back(point.head<2>());
@@ -69,7 +68,7 @@ Plan plan_of(const View& view, const std::vector<std::size_t>& pixels, const std
   }
   // A patch stands for as many points as its share of the surface.
   const double points_per_area = static_cast<double>(pixels.size()) / patch_area;
-  for (const Patch& patch : patches) {
+  for (const FlatPatch& patch : patches) {
     const Vector3d normal = from_camera.linear() * patch.normal;
     const Vector3d centre = from_camera * patch.centre;
     if (std::abs(normal.z()) > steep || centre.z() < closeness || centre.z() > bin.height) continue;
@@ -231,7 +230,7 @@ std::vector<Scored> apart(std::vector<Scored> all, std::size_t most) {
 
 }  // namespace
 
-std::vector<Isometry3d> possible_poses(const View& view, const std::vector<Patch>& patches,
+std::vector<Isometry3d> possible_poses(const View& view, const std::vector<FlatPatch>& patches,
                                        const std::vector<FlatPlane>& planes, const Bin& bin,
                                        double closeness) {
   constexpr std::size_t points_of_plan = 8000;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/model/locate/bin_fit.hpp"
 #include "tanglebin/model/locate/bin_parts.hpp"
@@ -26,7 +27,6 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr std::size_t rays = 8000;  // for an agreement
 
 [[noreturn]] void refuse(const std::string& problem) {
@@ -412,7 +412,7 @@ Located located_bin(const Support& support, const Camera& camera, const BinFit& 
 }
 
 Located locate_bin(const View& view, const Support& support, const Camera& camera) {
-  const std::vector<Patch> patches = patches_of(view);
+  const std::vector<FlatPatch> patches = patches_of(view);
   const std::vector<FlatPlane> planes = planes_of(patches);
   if (planes.empty()) refuse("nothing flat is seen");
   constexpr double least = 0.004;  // m

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <utility>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/median.hpp"
 #include "tanglebin/base/random.hpp"
 
@@ -18,8 +18,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-
-constexpr double degree = std::numbers::pi / 180;
 
 int tile_size(const View& view) {
   constexpr double smallest = 0.008;  // m
@@ -70,7 +68,7 @@ Vector3f first_point(const View& view, int left, int top, int size) {
   return view.at(-1, -1);
 }
 
-void add_patch(const View& view, int left, int top, int size, std::vector<Patch>& patches) {
+void add_patch(const View& view, int left, int top, int size, std::vector<FlatPatch>& patches) {
   constexpr double points_min = 12;
   constexpr double flatness = 0.25;  // largest ratio of variances across and along the plane
   const Vector3f about = first_point(view, left, top, size);
@@ -94,14 +92,14 @@ void add_patch(const View& view, int left, int top, int size, std::vector<Patch>
 constexpr double same_direction = 20 * degree;
 constexpr double closeness_min = 0.003;  // m
 
-bool lies_on(const Patch& patch, const FlatPlane& plane, double closeness) {
+bool lies_on(const FlatPatch& patch, const FlatPlane& plane, double closeness) {
   return std::abs(plane.normal.dot(patch.centre) - plane.offset) < closeness &&
          patch.normal.dot(plane.normal) > std::cos(same_direction);
 }
 
-double area_on(const std::vector<Patch>& patches, const FlatPlane& plane, double closeness) {
+double area_on(const std::vector<FlatPatch>& patches, const FlatPlane& plane, double closeness) {
   double area = 0;
-  for (const Patch& patch : patches) {
+  for (const FlatPatch& patch : patches) {
     if (lies_on(patch, plane, closeness)) area += patch.area;
   }
   return area;
@@ -112,25 +110,25 @@ FlatPlane plane_with(const Vector3d& normal, const Vector3d& point) {
   return {.normal = towards, .offset = towards.dot(point), .area = 0, .noise = 0};
 }
 
-std::vector<Patch> thinned(const std::vector<Patch>& patches) {
+std::vector<FlatPatch> thinned(const std::vector<FlatPatch>& patches) {
   constexpr std::size_t enough = 2000;
   const std::size_t stride = patches.size() / enough + 1;
-  std::vector<Patch> thin;
+  std::vector<FlatPatch> thin;
   for (std::size_t i = 0; i < patches.size(); i += stride) thin.push_back(patches[i]);
   return thin;
 }
 
 // The plane with the most area on it, of those through three patches drawn at random.
-FlatPlane best_of_draws(const std::vector<Patch>& patches, double closeness, Rng& rng) {
+FlatPlane best_of_draws(const std::vector<FlatPatch>& patches, double closeness, Rng& rng) {
   constexpr int draws = 400;
   const int last = static_cast<int>(patches.size()) - 1;
   const auto draw = [&] { return patches[static_cast<std::size_t>(uniform_integer(rng, 0, last))]; };
   FlatPlane best = plane_with(patches[0].normal, patches[0].centre);
   for (int i = 0; i < draws; ++i) {
-    const Patch first = draw();
+    const FlatPatch first = draw();
     FlatPlane plane = plane_with(first.normal, first.centre);
-    const Patch second = draw();
-    const Patch third = draw();
+    const FlatPatch second = draw();
+    const FlatPatch third = draw();
     const double loose = 0.1 * (second.centre - first.centre).norm() + closeness;
     if (lies_on(second, plane, loose) && lies_on(third, plane, loose)) {
       const Vector3d normal = (second.centre - first.centre).cross(third.centre - first.centre);
@@ -143,12 +141,12 @@ FlatPlane best_of_draws(const std::vector<Patch>& patches, double closeness, Rng
 }
 
 // The plane of least squares through the patches on it.
-FlatPlane refined(const std::vector<Patch>& patches, FlatPlane plane, double closeness) {
+FlatPlane refined(const std::vector<FlatPatch>& patches, FlatPlane plane, double closeness) {
   constexpr int rounds = 4;
   for (int i = 0; i < rounds; ++i) {
     Moments moments;
     std::vector<double> noise;
-    for (const Patch& patch : patches) {
+    for (const FlatPatch& patch : patches) {
       if (!lies_on(patch, plane, closeness)) continue;
       moments.add(patch.centre, patch.area);
       noise.push_back(patch.noise);
@@ -166,16 +164,16 @@ FlatPlane refined(const std::vector<Patch>& patches, FlatPlane plane, double clo
 
 }  // namespace
 
-std::vector<Patch> patches_of(const View& view) {
+std::vector<FlatPatch> patches_of(const View& view) {
   const int size = tile_size(view);
-  std::vector<Patch> patches;
+  std::vector<FlatPatch> patches;
   for (int top = 0; top < view.camera.height; top += size) {
     for (int left = 0; left < view.camera.width; left += size) add_patch(view, left, top, size, patches);
   }
   return patches;
 }
 
-std::vector<FlatPlane> planes_of(const std::vector<Patch>& patches) {
+std::vector<FlatPlane> planes_of(const std::vector<FlatPatch>& patches) {
   constexpr std::size_t most = 12;
   constexpr std::size_t patches_min = 10;
   constexpr double smallest = 0.005;  // share of the area
@@ -183,19 +181,19 @@ std::vector<FlatPlane> planes_of(const std::vector<Patch>& patches) {
   Rng rng(seed);
   double area = 0;
   std::vector<double> noise;
-  for (const Patch& patch : patches) {
+  for (const FlatPatch& patch : patches) {
     area += patch.area;
     noise.push_back(patch.noise);
   }
   if (noise.empty()) return {};
   const double closeness = std::max(closeness_min, 2 * median(std::move(noise)));
-  std::vector<Patch> left = patches;
+  std::vector<FlatPatch> left = patches;
   std::vector<FlatPlane> planes;
   while (planes.size() < most && left.size() >= patches_min) {
     const FlatPlane plane = refined(left, best_of_draws(thinned(left), closeness, rng), closeness);
     if (plane.area < smallest * area) break;
     planes.push_back(plane);
-    std::erase_if(left, [&](const Patch& patch) { return lies_on(patch, plane, 2 * closeness); });
+    std::erase_if(left, [&](const FlatPatch& patch) { return lies_on(patch, plane, 2 * closeness); });
   }
   std::ranges::sort(planes, [](const FlatPlane& a, const FlatPlane& b) { return a.area > b.area; });
   return planes;

@@ -9,7 +9,7 @@
 namespace tanglebin {
 
 /// The plane through the points of a small tile of the image.
-struct Patch {
+struct FlatPatch {
   Eigen::Vector3d centre;  ///< m
   Eigen::Vector3d normal;  ///< unit, towards the camera
   double noise;            ///< m, RMS distance of the points from the plane
@@ -17,7 +17,7 @@ struct Patch {
 };
 
 /// A patch for each tile of at least 10 pixels and 8 mm that has enough points and is roughly flat.
-std::vector<Patch> patches_of(const View& view);
+std::vector<FlatPatch> patches_of(const View& view);
 
 /// A plane that many patches lie on.
 struct FlatPlane {
@@ -29,6 +29,6 @@ struct FlatPlane {
 
 /// The planes that the patches lie on, from the largest to the smallest: at most twelve, each with at
 /// least 0.5 % of the area. Deterministic.
-std::vector<FlatPlane> planes_of(const std::vector<Patch>& patches);
+std::vector<FlatPlane> planes_of(const std::vector<FlatPatch>& patches);
 
 }  // namespace tanglebin

@@ -13,13 +13,13 @@ namespace {
 constexpr std::size_t read_behind = 3;
 
 /// A point's index and pixel.
-struct Seen {
+struct PointInPixel {
   PixelPosition pixel;
   std::uint32_t index;
 };
 
-std::vector<Seen> seen_points(const std::vector<Eigen::Vector3f>& points, const Camera& camera) {
-  std::vector<Seen> seen;
+std::vector<PointInPixel> seen_points(const std::vector<Eigen::Vector3f>& points, const Camera& camera) {
+  std::vector<PointInPixel> seen;
   seen.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::optional<SeenPixel> pixel = seen_pixel(camera, points[i].cast<double>());
@@ -31,7 +31,7 @@ std::vector<Seen> seen_points(const std::vector<Eigen::Vector3f>& points, const 
 }  // namespace
 
 PixelGrid::PixelGrid(const std::vector<Eigen::Vector3f>& points, const Camera& camera) : camera_(camera) {
-  const std::vector<Seen> seen = seen_points(points, camera);
+  const std::vector<PointInPixel> seen = seen_points(points, camera);
   Eigen::AlignedBox2i part;
   for (const auto& [pixel, index] : seen) part.extend(Eigen::Vector2i(pixel.column, pixel.row));
   if (!part.isEmpty()) {

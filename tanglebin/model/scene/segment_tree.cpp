@@ -8,10 +8,10 @@
 #include <compare>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <utility>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/error.hpp"
 
 namespace tanglebin {
@@ -19,8 +19,6 @@ namespace {
 
 // The time that misfit() takes doubles with each.
 constexpr int most_at_a_node = 12;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A node, with the neighbour through which it was reached.
 struct Arrival {
