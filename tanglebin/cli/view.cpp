@@ -131,8 +131,7 @@ void add_view(CLI::App& app) {
   command
       ->add_option("input", arguments->input,
                    "Cloud (.ply, .pcd), tubes (configuration or tubes.json) or a dataset's case, such as "
-                   "DATASET/A10/1; - for "
-                   "standard input")
+                   "DATASET/A10/1; - for standard input")
       ->required();
   command->add_option("--out", arguments->out, "Self-contained HTML page to write; - for standard output")
       ->required();

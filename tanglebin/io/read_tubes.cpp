@@ -20,7 +20,7 @@
 namespace tanglebin {
 namespace {
 
-constexpr std::uint64_t format = 1;
+constexpr std::uint64_t tubes_format = 1;
 
 void expect_text(const JsonRecord& record, const std::string& field, std::string_view expected) {
   if (const std::string found = record.text(field); found != expected)
@@ -82,8 +82,8 @@ Tube tube_of(const JsonRecord& record) {
 }
 
 std::vector<Tube> tubes_of(const JsonRecord& record) {
-  if (const std::uint64_t found = record.whole_number("format"); found != format)
-    record.fail("format", fmt::format("{}", found), fmt::format("{}", format));
+  if (const std::uint64_t found = record.whole_number("format"); found != tubes_format)
+    record.fail("format", fmt::format("{}", found), fmt::format("{}", tubes_format));
   expect_text(record, "frame", "world");
   expect_text(record, "unit", "m");
   std::vector<Tube> tubes;

@@ -39,13 +39,11 @@ std::optional<double> mean_seconds(const Results& results, const std::string& me
 }
 
 /// The best first.
-std::vector<Standing> standings_of(const Results& results, double ratio) {
+std::vector<Standing> standings_of(const Results& results, const std::vector<RunScore>& scores,
+                                   double ratio) {
   std::vector<Standing> standings;
-  for (const std::string& method : results.experiment.methods) {
-    auto runs = chosen(results.scores, [&](const RunScore& run) {
-      return run.run.method == method && run.run.ratio == ratio;
-    });
-    if (runs.empty()) continue;
+  for (const std::string& method : distinct(scores, [](const RunScore& run) { return run.run.method; })) {
+    auto runs = chosen(scores, [&](const RunScore& run) { return run.run.method == method; });
     const Summary recall = recall_of(runs);
     standings.push_back({method, std::move(runs), recall, mean_seconds(results, method, ratio)});
   }
@@ -80,9 +78,9 @@ HtmlTable overall(const std::vector<Standing>& standings, double ratio) {
 
 /// The micro-recall of each method, a column for each value of group_of(run). Empty if there is only one.
 template <typename GroupOf>
-std::string table_by(const std::vector<Standing>& standings, const std::string& caption,
-                     const GroupOf& group_of) {
-  const auto groups = distinct(standings.front().runs, group_of);
+std::string table_by(const std::vector<Standing>& standings, const std::vector<RunScore>& scores,
+                     const std::string& caption, const GroupOf& group_of) {
+  const auto groups = distinct(scores, group_of);
   if (groups.size() < 2) return "";
   HtmlTable table{.caption_html = caption, .columns = columns_of({"Method"}), .rows = {}};
   for (const auto& group : groups)
@@ -107,19 +105,20 @@ std::string leaderboard(const Results& results) {
                         paragraph("missing", "The results have no scores (<code>results.jsonl</code>)."));
   }
   const double ratio = shown_ratio(results.scores);
-  const std::vector<Standing> standings = standings_of(results, ratio);
-  const std::string note = paragraph("note",
-                                     "Mean micro-recall over scenes, each of which counts once, with the "
-                                     "mean over its scanners. ± is half the "
-                                     "95 % confidence interval of the mean. A failed run counts as one that "
-                                     "found nothing. Seconds: mean time "
-                                     "of a run.");
+  const auto scores = chosen(results.scores, [&](const RunScore& run) { return run.run.ratio == ratio; });
+  const std::vector<Standing> standings = standings_of(results, scores, ratio);
+  const std::string note = paragraph(
+      "note",
+      "Mean micro-recall over scenes, each of which counts once, with the mean over its scanners. ± is half "
+      "the 95 % confidence interval of the mean. A failed run counts as one that found nothing. Seconds: "
+      "mean time of a run.");
   return section_html(
       "leaderboard", heading,
       note + html(overall(standings, ratio)) +
-          table_by(standings, "<b>By set.</b>", [](const RunScore& run) { return run.run.id.set; }) +
-          table_by(standings, "<b>By scanner.</b>", [](const RunScore& run) { return run.run.scanner; }) +
-          table_by(standings, "<b>By number of tubes.</b>",
+          table_by(standings, scores, "<b>By set.</b>", [](const RunScore& run) { return run.run.id.set; }) +
+          table_by(standings, scores, "<b>By scanner.</b>",
+                   [](const RunScore& run) { return run.run.scanner; }) +
+          table_by(standings, scores, "<b>By number of tubes.</b>",
                    [](const RunScore& run) { return tubes_of(run); }));
 }
 

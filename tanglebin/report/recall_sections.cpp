@@ -193,7 +193,7 @@ constexpr const char* no_scores =
     "The results have no scores (<code>results.jsonl</code>), so there is nothing to plot.";
 
 /// The plots of a figure, with one caption.
-std::string figure_of(const Results& results, const std::vector<RunScore>& scores, const Axis& axis,
+std::string figure_of(const Results& results, const std::vector<RunScore>& scores, const RecallAxis& axis,
                       const std::string& x_label, const std::string& caption_html) {
   const std::vector<std::vector<RunScore>> parts = parts_to_plot(scores);
   std::string plots;

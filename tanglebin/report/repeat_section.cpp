@@ -3,6 +3,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 
 #include "tanglebin/recipe/case_id.hpp"
 #include "tanglebin/report/html.hpp"
