@@ -377,13 +377,12 @@ void FinishedRuns::forget_changed(const Dataset& dataset, const ExperimentSettin
                        "the dataset lacks this case, which the results have; use another directory for its "
                        "results");
     }
-    if (its.sha256 != case_sha256(dataset, id) || has_other_labels(id, its, settings)) changed.push_back(id);
+    if (its.sha256 != case_sha256(dataset, id) || has_other_labels(its, settings)) changed.push_back(id);
   }
   for (const CaseId& id : changed) cases_.erase(id);
 }
 
-bool FinishedRuns::has_other_labels(const CaseId& id, const Case& finished,
-                                    const ExperimentSettings& settings) const {
+bool FinishedRuns::has_other_labels(const Case& finished, const ExperimentSettings& settings) const {
   LineReader reader(files_);
   for (std::size_t i = 0; i < finished.runs.size(); ++i) {
     const auto* directory =

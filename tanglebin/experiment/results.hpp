@@ -104,7 +104,7 @@ private:
   void add_result(const std::string& line, const LinePlace& place);
   void add_times(const std::string& line, const LinePlace& place);
   void add_journal_line(const std::string& line, const LinePlace& place);
-  bool has_other_labels(const CaseId& id, const Case& finished, const ExperimentSettings& settings) const;
+  bool has_other_labels(const Case& finished, const ExperimentSettings& settings) const;
 
   RunGrid grid_;
   std::vector<std::filesystem::path> files_{};
