@@ -172,19 +172,19 @@ TEST_F(Benchmark, IsTheSameWithOneWorkerTwoWorkersTwoShardsAndAfterKills) {
 }
 
 TEST_F(Benchmark, SettingsOfABuiltInMethodAreComparedByName) {
-  write_bytes(path("wide.toml"), "format = 1\naxis.filter.margin = 0.004\n");
+  write_bytes(path("strict.toml"), "format = 1\naxis.label.distance_max = 0.01\n");
   write_bytes(path("same.toml"), "format = 1\n");
   const std::string options =
-      "--method axis --method same=axis:" + path("same.toml") + " --method wide=axis:" + path("wide.toml");
+      "--method axis --method same=axis:" + path("same.toml") + " --method strict=axis:" + path("strict.toml");
   const ProgramResult run = experiment("results", options);
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(rows_of("wide", "results").first, 12);
+  EXPECT_EQ(rows_of("strict", "results").first, 12);
   EXPECT_EQ(mean_of("same", "results"), mean_of("axis", "results"));
-  EXPECT_NE(mean_of("wide", "results"), mean_of("axis", "results"));
+  EXPECT_NE(mean_of("strict", "results"), mean_of("axis", "results"));
   EXPECT_EQ(run_program("report " + path("results") + " --out " + path("page.html")).status, 0);
-  EXPECT_THAT(bytes_of(path("page.html")), HasSubstr("--method wide=axis:" + path("wide.toml")));
+  EXPECT_THAT(bytes_of(path("page.html")), HasSubstr("--method strict=axis:" + path("strict.toml")));
 
-  write_bytes(path("wide.toml"), "format = 1\naxis.filter.margin = 0.005\n");
+  write_bytes(path("strict.toml"), "format = 1\naxis.label.distance_max = 0.02\n");
   EXPECT_EQ(experiment("results", options).status, 2) << "another experiment";
 }
 

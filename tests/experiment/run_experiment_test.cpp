@@ -143,7 +143,7 @@ TEST_F(RunExperiment, ModelsTheCloudOfEachScannerAndTellsWhatWasDrawnForTheCase)
 TEST_F(RunExperiment, ABuiltInMethodMayHaveSettingsOfItsOwn) {
   const TemporaryDirectory results;
   ModelSettings other = settings_.model;
-  set_parameter(other, "axis.filter.margin", 0.002);
+  set_parameter(other, "axis.label.distance_max", 0.01);
   settings_.methods = {entry_of(Method::axis),
                        {"same", BuiltIn{Method::axis, "same.toml", settings_.model}},
                        {"other", BuiltIn{Method::axis, "other.toml", other}}};
@@ -158,7 +158,7 @@ TEST_F(RunExperiment, ABuiltInMethodMayHaveSettingsOfItsOwn) {
   EXPECT_NE(nlohmann::json::parse(lines[2]), axis);
   const auto others = nlohmann::json::parse(bytes_of(results / "experiment.json")).at("other_methods");
   EXPECT_EQ(others.at("other").at("method"), "axis");
-  EXPECT_EQ(others.at("other").at("parameters"), nlohmann::json({{"axis.filter.margin", 0.002}}));
+  EXPECT_EQ(others.at("other").at("parameters"), nlohmann::json({{"axis.label.distance_max", 0.01}}));
 }
 
 TEST_F(RunExperiment, NeedsClouds) {
