@@ -174,8 +174,8 @@ TEST_F(Benchmark, IsTheSameWithOneWorkerTwoWorkersTwoShardsAndAfterKills) {
 TEST_F(Benchmark, SettingsOfABuiltInMethodAreComparedByName) {
   write_bytes(path("strict.toml"), "format = 1\naxis.label.distance_max = 0.01\n");
   write_bytes(path("same.toml"), "format = 1\n");
-  const std::string options =
-      "--method axis --method same=axis:" + path("same.toml") + " --method strict=axis:" + path("strict.toml");
+  const std::string options = "--method axis --method same=axis:" + path("same.toml") +
+                              " --method strict=axis:" + path("strict.toml");
   const ProgramResult run = experiment("results", options);
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(rows_of("strict", "results").first, 12);
