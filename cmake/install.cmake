@@ -11,7 +11,7 @@ set(public_headers
   geometry/bin geometry/camera geometry/capsule geometry/intersect geometry/labels geometry/mass_properties geometry/ray
   geometry/segment geometry/support geometry/tube
   cloud/cloud cloud/images cloud/label_colors
-  io/configuration io/images io/mesh io/pcd io/ply io/read_cloud
+  io/configuration io/images io/mesh io/pcd io/ply io/read_cloud io/read_tubes
   generate/generate generate/tube_spec
   settle/overlap settle/settle settle/spawn
   scan/scan scan/scan_output scan/scanner scan/sensor

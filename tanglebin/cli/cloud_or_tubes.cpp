@@ -10,8 +10,8 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/read_cloud.hpp"
+#include "tanglebin/io/read_tubes.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -20,14 +20,15 @@ namespace {
 CloudOrTubes read(std::istream& in, const std::string& name) {
   const int first = in.peek();
   if (first == 'p' || first == '#' || first == 'V') return read_cloud(in, name);
-  if (first == std::istream::traits_type::eof() || std::isdigit(first) == 0) {
+  if (first == std::istream::traits_type::eof() || (std::isdigit(first) == 0 && first != '{')) {
     const bool is_empty = first == std::istream::traits_type::eof();
     const char character = std::istream::traits_type::to_char_type(first);
-    throw InputError({.file = name, .line = 0, .field = ""},
-                     is_empty ? "an empty file" : excerpt({&character, 1}) + " at the start",
-                     "a configuration, which begins with the number of tubes, or a PLY or PCD cloud");
+    throw InputError(
+        {.file = name, .line = 0, .field = ""},
+        is_empty ? "an empty file" : excerpt({&character, 1}) + " at the start",
+        "a configuration, which begins with the number of tubes, tubes.json, or a PLY or PCD cloud");
   }
-  return read_configuration(in, name);
+  return read_tubes(in, name);
 }
 
 }  // namespace

@@ -26,8 +26,10 @@
 #include "tanglebin/cli/progress_report.hpp"
 #include "tanglebin/cli/scene_options.hpp"
 #include "tanglebin/cli/shard_option.hpp"
+#include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/experiment/run_experiment.hpp"
 #include "tanglebin/experiment/summary.hpp"
+#include "tanglebin/profile/profile.hpp"
 #include "tanglebin/report/text.hpp"
 #include "tanglebin/report/write_pictures.hpp"
 #include "tanglebin/report/write_scenes.hpp"
@@ -70,14 +72,32 @@ std::pair<std::string, std::string> named(const std::string& text, const std::st
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-// Those that are built in, in the order of methods(); then the commands and the labels, as they were given.
-std::vector<Entry> entries_of(const ExperimentArguments& arguments) {
+// "axis:thin.toml": a method that is built in, and a profile over the experiment's settings; none of a
+// command.
+std::optional<BuiltIn> built_in(const std::string& text, ModelSettings model) {
+  const std::size_t colon = text.find(':');
+  const std::vector<Method> known = methods();
+  const auto method = std::ranges::find_if(
+      known, [&](Method its) { return name_of(its) == std::string_view(text).substr(0, colon); });
+  if (colon == std::string::npos || method == known.end()) return std::nullopt;
+  const std::string profile = text.substr(colon + 1);
+  read_profile(profile, model);
+  return BuiltIn{*method, profile, std::move(model)};
+}
+
+Entry entry_named(const std::string& text, const ModelSettings& model, const ProcessLimits& limits) {
+  const auto [name, what] = named(text, "--method");
+  if (const auto own = built_in(what, model)) return {name, *own};
+  return {name, command_of(what, std::filesystem::current_path(), limits)};
+}
+
+// Those that are built in, in the order of methods(); then those with names of their own, as they were given.
+std::vector<Entry> entries_of(const ExperimentArguments& arguments, const ModelSettings& model) {
   std::vector<Method> asked;
   std::vector<Entry> others;
   for (const std::string& text : arguments.methods) {
     if (text.find('=') != std::string::npos) {
-      const auto [name, command] = named(text, "--method");
-      others.push_back({name, command_of(command, std::filesystem::current_path(), limits_of(arguments))});
+      others.push_back(entry_named(text, model, limits_of(arguments)));
     } else {
       for (const std::string_view name : split(text, ',')) asked.push_back(method_named(std::string(name)));
     }
@@ -124,6 +144,7 @@ void print_json(const ExperimentArguments& arguments, const ExperimentSummary& s
   for (const MeanMicroRecall& mean : findings.means) {
     json["micro_recall"].push_back({{"method", mean.method},
                                     {"set", mean.set},
+                                    {"scanner", mean.scanner},
                                     {"tubes", mean.tubes},
                                     {"cases", mean.cases},
                                     {"failed", mean.failed},
@@ -142,10 +163,10 @@ std::string cases_of(const MeanMicroRecall& mean) {
 // A line for each method and set.
 void print_means(const std::vector<MeanMicroRecall>& means) {
   const auto same_line = [](const MeanMicroRecall& a, const MeanMicroRecall& b) {
-    return a.method == b.method && a.set == b.set;
+    return a.method == b.method && a.set == b.set && a.scanner == b.scanner;
   };
   for (auto mean = means.begin(); mean != means.end();) {
-    print_out("{}, set {}:", mean->method, mean->set);
+    print_out("{}, set {}:", mean->method, seen_by(mean->scanner, mean->set));
     const auto first = mean;
     for (; mean != means.end() && same_line(*first, *mean); ++mean) {
       print_out("{} {:.3f} ({})", mean == first ? "" : ",", mean->mean, cases_of(*mean));
@@ -175,9 +196,10 @@ void print_text(const ExperimentArguments& arguments, const ExperimentSummary& s
 }
 
 void experiment(const ExperimentArguments& arguments) {
-  ExperimentSettings settings{.methods = entries_of(arguments),
+  const ModelSettings model = settings_of(arguments.model);
+  ExperimentSettings settings{.methods = entries_of(arguments, model),
                               .ratios = parse_ratios(arguments.ratios, "--downsample"),
-                              .model = settings_of(arguments.model),
+                              .model = model,
                               .keep_models = arguments.keep};
   if (arguments.scene) settings.scene = scene_named(*arguments.scene, "");
   expect_dataset(arguments.dataset);
@@ -219,8 +241,9 @@ void add_experiment(CLI::App& app) {
   command
       ->add_option(
           "--method", arguments->methods,
-          "Method, as often as there are some: axis, paper or axis,paper; NAME='COMMAND {cloud} {out}' "
-          "for a program of yours, without a shell (docs/benchmark.md)")
+          "Method, as often as there are some: axis, paper or axis,paper; NAME=axis:PROFILE for one with a "
+          "profile of its own; NAME='COMMAND {cloud} {out}' for a program of yours, without a shell "
+          "(docs/benchmark.md)")
       ->allow_extra_args(false)
       ->option_text("METHOD [axis]");
   command

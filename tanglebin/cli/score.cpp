@@ -20,8 +20,8 @@
 #include "tanglebin/cli/score_dataset.hpp"
 #include "tanglebin/experiment/measures.hpp"
 #include "tanglebin/geometry/tube.hpp"
-#include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/read_cloud.hpp"
+#include "tanglebin/io/read_tubes.hpp"
 #include "tanglebin/scan/scan.hpp"
 #include "tanglebin/score/score_clouds.hpp"
 #include "tanglebin/score/score_tubes.hpp"
@@ -121,10 +121,10 @@ void print_text(const Score& score, const std::optional<TubesScore>& tubes_score
   print_tubes(score);
 }
 
-// Only if configurations are given.
-std::optional<TubesScore> score_configurations(const ScoreArguments& arguments) {
+// Only if both are given.
+std::optional<TubesScore> score_given_tubes(const ScoreArguments& arguments) {
   if (!arguments.true_tubes || !arguments.tubes) return {};
-  const auto read = [](auto&&... from) { return read_configuration(from...); };
+  const auto read = [](auto&&... from) { return read_tubes(from...); };
   const std::vector<Tube> truth = read_input(*arguments.true_tubes, read);
   const std::vector<Tube> modelled = read_input(*arguments.tubes, read);
   try {
@@ -144,7 +144,7 @@ void score_labels(const ScoreArguments& arguments) {
         "tanglebin: warning: {}: its {} are the truth's own at every point; are they the result to score?\n",
         arguments.labelled, labelled.labels.empty() ? "colours" : "labels");
   }
-  const std::optional<TubesScore> tubes_score = score_configurations(arguments);
+  const std::optional<TubesScore> tubes_score = score_given_tubes(arguments);
   if (arguments.json) {
     nlohmann::ordered_json json = score_json(score);
     if (tubes_score) json.update(measures_json(*tubes_score));

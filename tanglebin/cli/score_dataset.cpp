@@ -15,7 +15,8 @@ namespace tanglebin::cli {
 namespace {
 
 void print_scene_json(const SceneScore& scene) {
-  nlohmann::ordered_json json = id_json(scene.scene);
+  nlohmann::ordered_json json = id_json(scene.seen.scene);
+  if (!scene.seen.scanner.empty()) json["scanner"] = scene.seen.scanner;
   if (scene.failure) add_failure(json, *scene.failure);
   if (scene.score) {
     json.update(measures_json(scene.score->labels));
@@ -26,19 +27,19 @@ void print_scene_json(const SceneScore& scene) {
 
 void print_scene(const SceneScore& scene) {
   if (scene.failure) {
-    print_out("{:<12} {}\n", name_of(scene.scene), scene.failure->reason);
+    print_out("{:<12} {}\n", name_of(scene.seen), scene.failure->reason);
     return;
   }
   const Score& score = scene.score->labels;
-  print_out("{:<12} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7.4f}\n", name_of(scene.scene),
-            score.micro_recall, score.mean_iou, score.detection.f1, score.detection.panoptic_quality,
-            score.adjusted_rand_index);
+  print_out("{:<12} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7.4f}\n", name_of(scene.seen), score.micro_recall,
+            score.mean_iou, score.detection.f1, score.detection.panoptic_quality, score.adjusted_rand_index);
 }
 
 void print_means_json(const std::vector<MeanScore>& means) {
   nlohmann::ordered_json json{{"means", nlohmann::ordered_json::array()}};
   for (const MeanScore& mean : means) {
     json["means"].push_back({{"set", mean.set},
+                             {"scanner", mean.scanner},
                              {"tubes", mean.tubes},
                              {"scenes", mean.scenes},
                              {"failed", mean.failed},
@@ -55,9 +56,9 @@ void print_means(const std::vector<MeanScore>& means) {
   print_out("\n{:<6} {:>5} {:>6} {:>6} {:>12} {:>9} {:>7} {:>7} {:>7}\n", "set", "tubes", "scenes", "failed",
             "micro-recall", "mean IoU", "F1", "PQ", "ARI");
   for (const MeanScore& mean : means) {
-    print_out("{:<6} {:>5} {:>6} {:>6} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7.4f}\n", mean.set, mean.tubes,
-              mean.scenes, mean.failed, mean.micro_recall, mean.mean_iou, mean.f1, mean.panoptic_quality,
-              mean.adjusted_rand_index);
+    print_out("{:<6} {:>5} {:>6} {:>6} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7.4f}\n",
+              seen_by(mean.scanner, mean.set), mean.tubes, mean.scenes, mean.failed, mean.micro_recall,
+              mean.mean_iou, mean.f1, mean.panoptic_quality, mean.adjusted_rand_index);
   }
 }
 
@@ -73,10 +74,12 @@ void score_dataset(const std::string& directory, const std::string& labels, bool
   std::vector<MeanScore> means;
   std::size_t failed = 0;
   for (const CaseId& id : cases(dataset)) {
-    const SceneScore scene = score_scene(dataset, id, {labels});
-    (json ? print_scene_json : print_scene)(scene);
-    add(means, scene);
-    if (scene.failure && scene.failure->of == FailureOf::method) ++failed;
+    for (const Scanner& scanner : scanners(dataset.recipe)) {
+      const SceneScore scene = score_scene(dataset, {id, scanner.name}, {labels});
+      (json ? print_scene_json : print_scene)(scene);
+      add(means, scene);
+      if (scene.failure && scene.failure->of == FailureOf::method) ++failed;
+    }
   }
   (json ? print_means_json : print_means)(means);
   if (failed > 0) throw CLI::RuntimeError(exit_cases_failed);

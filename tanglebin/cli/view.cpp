@@ -14,8 +14,8 @@
 #include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/cli/scene_options.hpp"
 #include "tanglebin/dataset/dataset.hpp"
-#include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/read_cloud.hpp"
+#include "tanglebin/io/read_tubes.hpp"
 #include "tanglebin/report/scene_view.hpp"
 #include "tanglebin/score/score_clouds.hpp"
 
@@ -39,7 +39,7 @@ struct ViewArguments {
 };
 
 std::vector<Tube> tubes_in(const std::string& file) {
-  return read_input(file, [](auto&&... from) { return read_configuration(from...); });
+  return read_input(file, [](auto&&... from) { return read_tubes(from...); });
 }
 
 // A dataset's case with its true labels and tubes, in its bin.
@@ -59,7 +59,7 @@ Support support_of(const ViewArguments& arguments) {
   return scene.support.value_or(Support{.shape = Support::Shape::nothing});
 }
 
-// A cloud, whose labels are the truth if there are others to compare with, or a configuration.
+// A cloud, whose labels are the truth if there are others to compare with, or tubes.
 ViewedScene scene_of_file(const ViewArguments& arguments) {
   ViewedScene scene{.name = std::filesystem::path(arguments.input).filename().string(),
                     .cloud = {},
@@ -103,8 +103,7 @@ void expect_a_cloud(const ViewArguments& arguments, const ViewedScene& scene) {
   for (const auto& [option, file] :
        {std::pair("--labelled", arguments.labelled), std::pair("--true-tubes", arguments.true_tubes),
         std::pair("--modelled-tubes", arguments.modelled_tubes)}) {
-    if (file)
-      throw InputError({"", 0, option}, "a configuration to view", "a cloud or a dataset's case beside it");
+    if (file) throw InputError({"", 0, option}, "tubes to view", "a cloud or a dataset's case beside it");
   }
 }
 
@@ -130,18 +129,18 @@ void add_view(CLI::App& app) {
   const auto arguments = std::make_shared<ViewArguments>();
   CLI::App* command = app.add_subcommand("view", "Write an HTML page that shows a scene in 3D");
   command
-      ->add_option(
-          "input", arguments->input,
-          "Cloud (.ply, .pcd), configuration (.txt) or a dataset's case, such as DATASET/A10/1; - for "
-          "standard input")
+      ->add_option("input", arguments->input,
+                   "Cloud (.ply, .pcd), tubes (configuration or tubes.json) or a dataset's case, such as "
+                   "DATASET/A10/1; - for standard input")
       ->required();
   command->add_option("--out", arguments->out, "Self-contained HTML page to write; - for standard output")
       ->required();
   command->add_option("--labelled", arguments->labelled,
                       "Cloud with the labels that were found: all or some points of the input, in any order");
-  command->add_option("--true-tubes", arguments->true_tubes, "Configuration of the true tubes of a cloud");
+  command->add_option("--true-tubes", arguments->true_tubes,
+                      "True tubes of a cloud (configuration or tubes.json)");
   command->add_option("--modelled-tubes", arguments->modelled_tubes,
-                      "Configuration of the tubes that were found");
+                      "Tubes that were found (configuration or tubes.json)");
   add_scene_option(*command, arguments->scene);
   command->footer(footer);
   command->callback([arguments] { view(*arguments); });

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/ply.hpp"
@@ -89,12 +90,16 @@ void expect_clouds(const Dataset& dataset) {
                    "false, so the dataset has no clouds", "true; generate a dataset with clouds");
 }
 
-CaseData read_case(const Dataset& dataset, const CaseId& id) {
+CaseData read_seen_case(const Dataset& dataset, const SeenCase& seen) {
   expect_clouds(dataset);
-  const CaseRecord record = dataset.catalogue.record(id);
-  CheckedFile cloud = open_checked(dataset.directory, record, "plys", "ply", dataset.recipe.scanner_name);
+  const CaseRecord record = dataset.catalogue.record(seen.scene);
+  CheckedFile cloud = open_checked(dataset.directory, record, "plys", "ply", seen.scanner);
   CheckedFile tubes = open_checked(dataset.directory, record, "tube_configurations", "txt");
   return {cloud.name, read_ply(cloud.in, cloud.name), read_configuration(tubes.in, tubes.name)};
+}
+
+CaseData read_case(const Dataset& dataset, const CaseId& id) {
+  return read_seen_case(dataset, {id, dataset.recipe.scanner_name});
 }
 
 }  // namespace tanglebin

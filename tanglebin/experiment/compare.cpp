@@ -21,10 +21,10 @@ constexpr std::array<const char*, 5> measure_names = {"micro_recall", "mean_iou"
                                                       "adjusted_rand_index"};
 using Measures = std::array<double, measure_names.size()>;
 
-/// The runs of a method on a scene, by ratio.
+/// The runs of a method on a scene, by scanner and ratio.
 struct SceneRuns {
   std::string case_sha256;
-  std::map<double, Measures> runs;
+  std::map<std::pair<std::string, double>, Measures> runs;
 };
 using Scenes = std::map<CaseId, SceneRuns>;
 
@@ -42,12 +42,12 @@ Scenes scenes_of(const Contestant& contestant) {
     if (result.run.method != contestant.method || is_unscored) return;
     SceneRuns& scene = scenes[result.run.scene];
     scene.case_sha256 = result.case_sha256;
-    scene.runs[result.run.ratio] = measures_of(result, record);
+    scene.runs[{result.run.scanner, result.run.ratio}] = measures_of(result, record);
   });
   return scenes;
 }
 
-/// The means of a scene over the ratios that both sides have.
+/// The means of a scene over the scanners and ratios that both sides have.
 struct Pair {
   CaseId scene;
   Measures baseline;
@@ -65,8 +65,8 @@ void divide(Measures& sum, std::size_t count) {
 std::optional<Pair> paired(const CaseId& id, const SceneRuns& baseline, const SceneRuns& other) {
   Pair pair{id, {}, {}};
   std::size_t count = 0;
-  for (const auto& [ratio, measures] : baseline.runs) {
-    const auto found = other.runs.find(ratio);
+  for (const auto& [view, measures] : baseline.runs) {
+    const auto found = other.runs.find(view);
     if (found == other.runs.end()) continue;
     add(pair.baseline, measures);
     add(pair.other, found->second);

@@ -28,7 +28,7 @@ struct MeasureDifference {
   double high;
 };
 
-/// The micro-recall of a scene, mean over the ratios.
+/// The micro-recall of a scene, mean over the scanners and ratios.
 struct SceneDifference {
   CaseId scene;
   double baseline;
@@ -37,7 +37,8 @@ struct SceneDifference {
   double difference() const { return other - baseline; }
 };
 
-/// Two methods on the scenes and ratios that both have. A run that failed counts as one that found nothing.
+/// Two methods on the scenes, scanners and ratios that both have. A run that failed counts as one that found
+/// nothing.
 struct Comparison {
   Contestant baseline;
   Contestant other;

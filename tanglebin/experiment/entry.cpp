@@ -131,6 +131,10 @@ bool is_name(const std::string& name) {
 
 }  // namespace
 
+bool is_built_in(const Entry& entry) {
+  return std::holds_alternative<Method>(entry.what) || std::holds_alternative<BuiltIn>(entry.what);
+}
+
 Entry entry_of(Method method) {
   return {name_of(method), method};
 }
@@ -177,9 +181,9 @@ void expect_names(const std::vector<Entry>& entries) {
   for (const Entry& entry : entries) {
     if (!is_name(entry.name))
       throw InputError({"", 0, option}, excerpt(entry.name), "a name of letters, digits, - _ and .");
-    const bool is_built_in =
+    const bool is_reserved =
         std::ranges::any_of(methods(), [&](Method method) { return name_of(method) == entry.name; });
-    if (is_built_in && !std::holds_alternative<Method>(entry.what))
+    if (is_reserved && !std::holds_alternative<Method>(entry.what))
       throw InputError({"", 0, option}, excerpt(entry.name), "another name than that of a built-in method");
     if (!names.insert(entry.name).second)
       throw InputError({"", 0, option}, entry.name + " twice", "each name once");

@@ -25,11 +25,21 @@ struct LabelsDirectory {
   std::string path;
 };
 
+/// A method that is built in, with settings of its own in place of the experiment's.
+struct BuiltIn {
+  Method method;
+  std::string profile;  ///< the file that the settings are from
+  ModelSettings model;  ///< with the experiment's seed
+};
+
 /// What models the clouds of an experiment, and its name in the results.
 struct Entry {
   std::string name;
-  std::variant<Method, Command, LabelsDirectory> what;
+  std::variant<Method, BuiltIn, Command, LabelsDirectory> what;
 };
+
+/// Whether it is a method that is built in, with whatever settings.
+bool is_built_in(const Entry& entry);
 
 /// The methods that are built in.
 Entry entry_of(Method method);

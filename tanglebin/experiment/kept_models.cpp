@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> files_of(const RunId& run) {
   const fs::path folder = fs::path("models") / run.method / fmt::format("{}", run.ratio);
-  return {folder / file_of(run.scene, "plys", "ply"),
-          folder / file_of(run.scene, "tube_configurations", "txt"),
-          folder / file_of(run.scene, "tubes", "json")};
+  return {folder / file_of(run.scene, "plys", "ply", run.scanner),
+          folder / file_of(run.scene, "tube_configurations", "txt", run.scanner),
+          folder / file_of(run.scene, "tubes", "json", run.scanner)};
 }
 
 void keep_model(const fs::path& directory, const RunId& run, const PointCloud& cloud, const Model& model) {

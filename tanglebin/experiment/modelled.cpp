@@ -33,6 +33,13 @@ Modelled model_by_method(const KnownScene& known, const CaseData& data, const Ru
   return modelled;
 }
 
+Modelled model_by(const BuiltIn& own, const KnownScene& known, const CaseData& data, RunId run,
+                  ExperimentSettings settings) {
+  settings.model = own.model;
+  run.method = name_of(own.method);
+  return model_by_method(known, data, run, settings);
+}
+
 // Of labels for the points of the case's cloud (empty: those of the nearest tubes), or tubes, or both.
 Modelled modelled_from(const CaseData& data, const SeenPoints& seen, std::vector<std::int32_t> labels,
                        std::optional<std::vector<Tube>> tubes) {
@@ -83,16 +90,16 @@ std::optional<FoundFile> file_if_there(const fs::path& path) {
   return FoundFile{path, std::move(*bytes)};
 }
 
-std::optional<FoundFile> labels_file(const fs::path& directory, const CaseId& id) {
+std::optional<FoundFile> labels_file(const fs::path& directory, const RunId& run) {
   for (const auto& [kind, extension] : {std::pair("plys", "ply"), std::pair("pcds", "pcd"),
                                         std::pair("labels", "npy"), std::pair("labels", "txt")}) {
-    if (auto file = file_if_there(directory / file_of(id, kind, extension))) return file;
+    if (auto file = file_if_there(directory / file_of(run.scene, kind, extension, run.scanner))) return file;
   }
   return std::nullopt;
 }
 
-std::optional<FoundFile> tubes_file(const fs::path& directory, const CaseId& id) {
-  return file_if_there(directory / file_of(id, "tube_configurations", "txt"));
+std::optional<FoundFile> tubes_file(const fs::path& directory, const RunId& run) {
+  return file_if_there(directory / file_of(run.scene, "tube_configurations", "txt", run.scanner));
 }
 
 std::string sha256_of(const std::optional<FoundFile>& labels, const std::optional<FoundFile>& tubes) {
@@ -102,7 +109,7 @@ std::string sha256_of(const std::optional<FoundFile>& labels, const std::optiona
 
 Modelled model_by_labels(const LabelsDirectory& directory, const CaseData& data, const RunId& run,
                          const SeenPoints& seen) {
-  FoundLabels found = find_labels(directory, run.scene, run.ratio, data.cloud);
+  FoundLabels found = find_labels(directory, run, data.cloud);
   Modelled modelled = modelled_from(data, seen, std::move(found.labels), std::move(found.tubes));
   modelled.labels_sha256 = std::move(found.sha256);
   return modelled;
@@ -110,14 +117,14 @@ Modelled model_by_labels(const LabelsDirectory& directory, const CaseData& data,
 
 }  // namespace
 
-FoundLabels find_labels(const LabelsDirectory& directory, const CaseId& id, double ratio,
-                        const PointCloud& cloud) {
-  const fs::path folder = with_ratio(directory, ratio);
-  const auto labels = labels_file(folder, id);
-  const auto tubes = tubes_file(folder, id);
+FoundLabels find_labels(const LabelsDirectory& directory, const RunId& run, const PointCloud& cloud) {
+  const fs::path folder = with_ratio(directory, run.ratio);
+  const auto labels = labels_file(folder, run);
+  const auto tubes = tubes_file(folder, run);
   if (!labels && !tubes)
-    throw InputError({folder.string(), 0, ""}, "no labels",
-                     fmt::format("{} or another file of labels or tubes", file_of(id, "plys", "ply")));
+    throw InputError(
+        {folder.string(), 0, ""}, "no labels",
+        fmt::format("{} or another file of labels or tubes", file_of(run.scene, "plys", "ply", run.scanner)));
   FoundLabels found{.labels = {}, .tubes = {}, .sha256 = sha256_of(labels, tubes)};
   if (labels) {
     std::istringstream in(labels->bytes);
@@ -131,14 +138,15 @@ FoundLabels find_labels(const LabelsDirectory& directory, const CaseId& id, doub
   return found;
 }
 
-std::string labels_sha256(const LabelsDirectory& directory, const CaseId& id, double ratio) {
-  const fs::path folder = with_ratio(directory, ratio);
-  return sha256_of(labels_file(folder, id), tubes_file(folder, id));
+std::string labels_sha256(const LabelsDirectory& directory, const RunId& run) {
+  const fs::path folder = with_ratio(directory, run.ratio);
+  return sha256_of(labels_file(folder, run), tubes_file(folder, run));
 }
 
 Modelled model_by(const Entry& entry, const KnownScene& known, const CaseData& data, const RunId& run,
                   const ExperimentSettings& settings, const fs::path& scratch) {
   if (std::holds_alternative<Method>(entry.what)) return model_by_method(known, data, run, settings);
+  if (const auto* own = std::get_if<BuiltIn>(&entry.what)) return model_by(*own, known, data, run, settings);
   const SeenPoints seen = seen_points(data.cloud, known, run.ratio, model_seed(settings, run.scene));
   if (const auto* command = std::get_if<Command>(&entry.what))
     return model_by_command(*command, known, data, seen, scratch);

@@ -30,13 +30,12 @@ struct FoundLabels {
   std::string sha256;  ///< of the files
 };
 
-/// Labels are in A10/plys/1.ply, A10/pcds/1.pcd, A10/labels/1.npy or A10/labels/1.txt, tubes in
-/// A10/tube_configurations/1.txt, as in a dataset. Throws InputError if there are neither, and for what
-/// cannot be read.
-FoundLabels find_labels(const LabelsDirectory& directory, const CaseId& id, double ratio,
-                        const PointCloud& cloud);
+/// Of a run. Labels are in A10/plys/1.ply, A10/pcds/1.pcd, A10/labels/1.npy or A10/labels/1.txt, tubes in
+/// A10/tube_configurations/1.txt, as in a dataset; of a scanner with a name in A10/left/plys/1.ply, …. Throws
+/// InputError if there are neither, and for what cannot be read.
+FoundLabels find_labels(const LabelsDirectory& directory, const RunId& run, const PointCloud& cloud);
 
 /// The checksum of the files that find_labels() would read; empty if there are none.
-std::string labels_sha256(const LabelsDirectory& directory, const CaseId& id, double ratio);
+std::string labels_sha256(const LabelsDirectory& directory, const RunId& run);
 
 }  // namespace tanglebin

@@ -45,18 +45,20 @@ constexpr char separator = '\t';
 
 Json run_json(const RunId& run) {
   Json json = id_json(run.scene);
+  if (!run.scanner.empty()) json["scanner"] = run.scanner;
   json["method"] = run.method;
   json["ratio"] = run.ratio;
   return json;
 }
 
-RunId run_of(const JsonRecord& record) {
-  return {record.text("method"), id_of(record), record.number("ratio")};
-}
-
 std::optional<std::string> text_if_there(const JsonRecord& record, const std::string& field) {
   if (!record.has(field)) return std::nullopt;
   return record.text(field);
+}
+
+RunId run_of(const JsonRecord& record) {
+  return {record.text("method"), id_of(record), record.number("ratio"),
+          text_if_there(record, "scanner").value_or("")};
 }
 
 RunResult run_result(const JsonRecord& record) {
@@ -68,9 +70,12 @@ RunResult run_result(const JsonRecord& record) {
           .labels_sha256 = text_if_there(record, "labels_sha256")};
 }
 
-Json result_head(const RunId& run, const std::string& case_sha256) {
+Json result_head(const RunId& run, const CaseRecord& scene) {
   Json json = run_json(run);
-  json["case_sha256"] = case_sha256;
+  json["case_sha256"] = sha256(to_json(scene));
+  for (const DrawnNumber& number : scene.drawn) {
+    if (number.tube == 0) json["drawn"][number.path] = number.value;
+  }
   return json;
 }
 
@@ -98,15 +103,28 @@ Json json_of(const Command& command) {
   return json;
 }
 
-// Of the methods that are not built in, by name.
+Json json_of(const BuiltIn& own) {
+  return {{"method", name_of(own.method)},
+          {"profile", own.profile},
+          {"parameters", changed_parameters(own.model)}};
+}
+
+// Of the methods that are not built in as they are, by name.
 Json others_json(const std::vector<Entry>& entries) {
   Json json = Json::object();
   for (const Entry& entry : entries) {
     if (const auto* command = std::get_if<Command>(&entry.what)) json[entry.name] = json_of(*command);
+    if (const auto* own = std::get_if<BuiltIn>(&entry.what)) json[entry.name] = json_of(*own);
     if (const auto* labels = std::get_if<LabelsDirectory>(&entry.what))
       json[entry.name] = {{"labels", labels->path}};
   }
   return json;
+}
+
+std::vector<std::string> names_of(const std::vector<Entry>& entries) {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries) names.push_back(entry.name);
+  return names;
 }
 
 // Everything that the results depend on, besides the cases themselves.
@@ -114,7 +132,7 @@ Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings)
   Json json{{"version", TANGLEBIN_VERSION},
             {"program_sha256", program_sha256()},
             {"dataset_seed", dataset.recipe.seed}};
-  json["methods"] = grid_of(settings).methods;
+  json["methods"] = names_of(settings.methods);
   json["other_methods"] = others_json(settings.methods);
   json["ratios"] = settings.ratios;
   json["seed"] = settings.model.seed;
@@ -125,16 +143,23 @@ Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings)
   return json;
 }
 
-// The text of experiment.json, which also has the dataset's digest and the number of cases with results.
-std::string experiment_text(Json experiment, const Json& digest, std::size_t cases) {
-  experiment["dataset_digest"] = digest;
-  experiment["cases"] = cases;
-  return experiment.dump() + '\n';
+/// Where the dataset was when the results were last written, and its digest; null if unknown.
+struct DatasetPlace {
+  Json directory;
+  Json digest;
+};
+
+DatasetPlace place_of(const Dataset& dataset) {
+  const std::optional<DatasetSummary> summary = read_dataset_summary(dataset.directory);
+  return {dataset.directory.string(), summary ? Json(summary->digest) : Json()};
 }
 
-Json digest_of(const Dataset& dataset) {
-  const std::optional<DatasetSummary> summary = read_dataset_summary(dataset.directory);
-  return summary ? Json(summary->digest) : Json();
+// The text of experiment.json, which also has the dataset's place and the number of cases with results.
+std::string experiment_text(Json experiment, const DatasetPlace& place, std::size_t cases) {
+  experiment["dataset"] = place.directory;
+  experiment["dataset_digest"] = place.digest;
+  experiment["cases"] = cases;
+  return experiment.dump() + '\n';
 }
 
 JsonRecord read_experiment(const fs::path& directory) {
@@ -155,9 +180,24 @@ void expect_same_experiment(const Json& wanted, const JsonRecord& found, const f
   }
 }
 
-RunGrid grid_of(const JsonRecord& experiment) {
+std::vector<std::string> names_of_scanners(const Recipe& recipe) {
+  std::vector<std::string> names;
+  for (const Scanner& scanner : scanners(recipe)) names.push_back(scanner.name);
+  return names;
+}
+
+RunGrid grid_of(const JsonRecord& experiment, const Recipe& recipe) {
   constexpr double least = std::numeric_limits<double>::min();
-  return {experiment.texts("methods"), experiment.numbers("ratios", least, 1)};
+  return {experiment.texts("methods"), experiment.numbers("ratios", least, 1), names_of_scanners(recipe)};
+}
+
+template <typename Value>
+std::size_t position_in(const std::vector<Value>& values, const Value& value, const char* field) {
+  const auto found = std::ranges::find(values, value);
+  if (found == values.end())
+    throw InputError({"", 0, field}, excerpt(fmt::format("{}", value)),
+                     fmt::format("{}", fmt::join(values, ", ")));
+  return static_cast<std::size_t>(found - values.begin());
 }
 
 }  // namespace
@@ -176,9 +216,9 @@ Circumstances circumstances(int jobs) {
   return now;
 }
 
-std::string result_json(const RunId& run, const std::string& case_sha256, const Modelled& modelled,
+std::string result_json(const RunId& run, const CaseRecord& scene, const Modelled& modelled,
                         const ModelScore& score) {
-  Json json = result_head(run, case_sha256);
+  Json json = result_head(run, scene);
   if (modelled.labels_sha256) json["labels_sha256"] = *modelled.labels_sha256;
   json.update(measures_json(score.labels));
   if (score.tubes) {
@@ -192,8 +232,8 @@ std::string result_json(const RunId& run, const std::string& case_sha256, const 
   return json.dump();
 }
 
-std::string failure_json(const RunId& run, const std::string& case_sha256, const RunFailure& failure) {
-  Json json = result_head(run, case_sha256);
+std::string failure_json(const RunId& run, const CaseRecord& scene, const RunFailure& failure) {
+  Json json = result_head(run, scene);
   add_failure(json, failure);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -216,25 +256,19 @@ std::string journal_line(const std::vector<std::string>& lines) {
 // ---- finished runs
 
 RunId RunGrid::run(std::size_t index, const CaseId& id) const {
-  return {methods[index / ratios.size()], id, ratios[index % ratios.size()]};
+  const std::size_t view = index / ratios.size();
+  return {methods[view / scanners.size()], id, ratios[index % ratios.size()],
+          scanners[view % scanners.size()]};
 }
 
 std::size_t RunGrid::index_of(const RunId& run) const {
-  const auto method = std::ranges::find(methods, run.method);
-  if (method == methods.end())
-    throw InputError({"", 0, "method"}, excerpt(run.method), fmt::format("{}", fmt::join(methods, ", ")));
-  const auto ratio = std::ranges::find(ratios, run.ratio);
-  if (ratio == ratios.end())
-    throw InputError({"", 0, "ratio"}, fmt::format("{}", run.ratio),
-                     fmt::format("{}", fmt::join(ratios, ", ")));
-  return static_cast<std::size_t>(method - methods.begin()) * ratios.size() +
-         static_cast<std::size_t>(ratio - ratios.begin());
+  const std::size_t method = position_in(methods, run.method, "method");
+  const std::size_t scanner = position_in(scanners, run.scanner, "scanner");
+  return (method * scanners.size() + scanner) * ratios.size() + position_in(ratios, run.ratio, "ratio");
 }
 
-RunGrid grid_of(const ExperimentSettings& settings) {
-  RunGrid grid{.methods = {}, .ratios = settings.ratios};
-  for (const Entry& entry : settings.methods) grid.methods.push_back(entry.name);
-  return grid;
+RunGrid grid_of(const ExperimentSettings& settings, const Recipe& recipe) {
+  return {names_of(settings.methods), settings.ratios, names_of_scanners(recipe)};
 }
 
 void FinishedRuns::add(const fs::path& directory) {
@@ -343,20 +377,20 @@ void FinishedRuns::forget_changed(const Dataset& dataset, const ExperimentSettin
                        "the dataset lacks this case, which the results have; use another directory for its "
                        "results");
     }
-    if (its.sha256 != case_sha256(dataset, id) || has_other_labels(id, its, settings)) changed.push_back(id);
+    if (its.sha256 != case_sha256(dataset, id) || has_other_labels(its, settings)) changed.push_back(id);
   }
   for (const CaseId& id : changed) cases_.erase(id);
 }
 
-bool FinishedRuns::has_other_labels(const CaseId& id, const Case& finished,
-                                    const ExperimentSettings& settings) const {
+bool FinishedRuns::has_other_labels(const Case& finished, const ExperimentSettings& settings) const {
   LineReader reader(files_);
   for (std::size_t i = 0; i < finished.runs.size(); ++i) {
-    const auto* directory = std::get_if<LabelsDirectory>(&settings.methods[i / grid_.ratios.size()].what);
+    const auto* directory =
+        std::get_if<LabelsDirectory>(&settings.methods[i / grid_.runs_of_a_method()].what);
     if (directory == nullptr || finished.runs[i].state != State::scored) continue;
     const LinePlace& place = finished.runs[i].result;
     const RunResult result = run_result({reader.line(place), files_[place.file].string(), place.line});
-    if (result.labels_sha256 != labels_sha256(*directory, id, result.run.ratio)) return true;
+    if (result.labels_sha256 != labels_sha256(*directory, result.run)) return true;
   }
   return false;
 }
@@ -371,8 +405,8 @@ std::size_t FinishedRuns::write(const fs::path& directory, const std::vector<Cas
     for (const CaseId& id : order) {
       const auto its = cases_.find(id);
       if (its == cases_.end()) continue;
-      for (std::size_t ratio = 0; ratio < grid_.ratios.size(); ++ratio) {
-        const Run& run = its->second.runs[method * grid_.ratios.size() + ratio];
+      for (std::size_t i = 0; i < grid_.runs_of_a_method(); ++i) {
+        const Run& run = its->second.runs[method * grid_.runs_of_a_method() + i];
         if (run.state == State::missing) continue;
         const std::string line = reader.line(run.result);
         results.append(line + '\n');
@@ -402,7 +436,7 @@ void claim(const fs::path& directory, const Dataset& dataset, const ExperimentSe
   expect_free(directory, dataset, settings);
   const fs::path file = directory / experiment_name;
   if (!fs::exists(file))
-    write_file(file, experiment_text(experiment_json(dataset, settings), digest_of(dataset), 0));
+    write_file(file, experiment_text(experiment_json(dataset, settings), place_of(dataset), 0));
 }
 
 void write_results(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings,
@@ -414,7 +448,7 @@ void write_results(const fs::path& directory, const Dataset& dataset, const Expe
   generation.commit();
   const std::size_t count = finished.write(directory, all, staging);
   write_file(directory / experiment_name,
-             experiment_text(experiment_json(dataset, settings), digest_of(dataset), count));
+             experiment_text(experiment_json(dataset, settings), place_of(dataset), count));
 }
 
 std::size_t merge_results(const std::vector<fs::path>& parts, const fs::path& directory) {
@@ -423,29 +457,31 @@ std::size_t merge_results(const std::vector<fs::path>& parts, const fs::path& di
     throw InputError({directory.string(), 0, ""}, "a dataset", "a directory for results");
   const JsonRecord first = read_experiment(parts.front());
   Json experiment = first.json();
-  Json digest = experiment.value("dataset_digest", Json());
-  for (const char* key : {"dataset_digest", "cases"}) experiment.erase(key);
+  DatasetPlace place{experiment.value("dataset", Json()), experiment.value("dataset_digest", Json())};
+  for (const char* key : {"dataset", "dataset_digest", "cases"}) experiment.erase(key);
   std::vector<fs::path> all = parts;
   if (fs::exists(directory / experiment_name)) all.insert(all.begin(), directory);
   for (const fs::path& part : all) {
     const JsonRecord found = read_experiment(part);
     expect_same_experiment(experiment, found, part, "");
-    if (found.json().value("dataset_digest", Json()) != digest) digest = Json();
+    if (found.json().value("dataset", Json()) != place.directory) place.directory = Json();
+    if (found.json().value("dataset_digest", Json()) != place.digest) place.digest = Json();
   }
+  std::istringstream recipe_text(first.text("recipe"));
+  const std::string source = (parts.front() / experiment_name).string() + ": recipe";
+  const Recipe recipe = read_recipe(recipe_text, source);
 
   make_directories(directory);
   const Journal journal(directory);
-  FinishedRuns merged(grid_of(first));
+  FinishedRuns merged(grid_of(first, recipe));
   for (const fs::path& part : all) merged.merge(part);
-  std::istringstream recipe(first.text("recipe"));
-  const std::string source = (parts.front() / experiment_name).string() + ": recipe";
-  const std::vector<CaseId> order = cases(read_recipe(recipe, source));
+  const std::vector<CaseId> order = cases(recipe);
   merged.expect_cases_among(order, source);
   if (const auto generation =
           read_if_there(parts.front() / generation_name, std::numeric_limits<std::size_t>::max()))
     write_staged(directory / generation_name, *generation, journal.staging());
   const std::size_t count = merged.write(directory, order, journal.staging());
-  write_file(directory / experiment_name, experiment_text(experiment, digest, count));
+  write_file(directory / experiment_name, experiment_text(experiment, place, count));
   journal.clear();
   return count;
 }

@@ -34,9 +34,9 @@ struct Circumstances {
 Circumstances circumstances(int jobs);
 
 /// The lines for a run (docs/formats.md), without a line end.
-std::string result_json(const RunId& run, const std::string& case_sha256, const Modelled& modelled,
+std::string result_json(const RunId& run, const CaseRecord& scene, const Modelled& modelled,
                         const ModelScore& score);
-std::string failure_json(const RunId& run, const std::string& case_sha256, const RunFailure& failure);
+std::string failure_json(const RunId& run, const CaseRecord& scene, const RunFailure& failure);
 std::string times_json(const RunId& run, const Modelled& modelled, const Circumstances& circumstances);
 
 /// The journal line for a case: the lines above for each of its runs.
@@ -46,13 +46,15 @@ std::string journal_line(const std::vector<std::string>& lines);
 struct RunGrid {
   std::vector<std::string> methods;
   std::vector<double> ratios;
+  std::vector<std::string> scanners = {""};
 
-  std::size_t size() const { return methods.size() * ratios.size(); }
+  std::size_t runs_of_a_method() const { return scanners.size() * ratios.size(); }
+  std::size_t size() const { return methods.size() * runs_of_a_method(); }
   RunId run(std::size_t index, const CaseId& id) const;
-  /// Throws InputError naming method or ratio if it has no such run.
+  /// Throws InputError naming method, scanner or ratio if it has no such run.
   std::size_t index_of(const RunId& run) const;
 };
-RunGrid grid_of(const ExperimentSettings& settings);
+RunGrid grid_of(const ExperimentSettings& settings, const Recipe& recipe);
 
 /// The finished runs of results directories. Keeps only the places of their lines in memory, so it is small
 /// even for many cases.
@@ -82,7 +84,7 @@ public:
   void expect_cases_among(const std::vector<CaseId>& cases, const std::string& source) const;
 
   /// Writes results.jsonl, times.jsonl, results.csv and tubes.csv (docs/formats.md) with the runs in order of
-  /// method, case and ratio. Returns the number of cases of which all runs are finished.
+  /// method, case, scanner and ratio. Returns the number of cases of which all runs are finished.
   std::size_t write(const std::filesystem::path& directory, const std::vector<CaseId>& order,
                     const std::filesystem::path& staging) const;
 
@@ -102,7 +104,7 @@ private:
   void add_result(const std::string& line, const LinePlace& place);
   void add_times(const std::string& line, const LinePlace& place);
   void add_journal_line(const std::string& line, const LinePlace& place);
-  bool has_other_labels(const CaseId& id, const Case& finished, const ExperimentSettings& settings) const;
+  bool has_other_labels(const Case& finished, const ExperimentSettings& settings) const;
 
   RunGrid grid_;
   std::vector<std::filesystem::path> files_{};

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
-#include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/experiment/entry.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/scene/scene.hpp"
@@ -31,10 +31,16 @@ struct RunId {
   std::string method;  ///< an entry's name
   CaseId scene;
   double ratio;
+  std::string scanner{};  ///< its name; empty for the one [scanner] of a recipe
 
   // NOLINTNEXTLINE(modernize-use-nullptr): a false alarm of clang-tidy 14
   auto operator<=>(const RunId&) const = default;
 };
+
+/// What a run models.
+inline SeenCase seen_case(const RunId& run) {
+  return {run.scene, run.scanner};
+}
 
 /// Identifies what a case is modelled and scored from, its files and the numbers drawn for it: the SHA-256 of
 /// its line in the manifest, without the line's end. Throws InputError if the line cannot be read.

@@ -20,23 +20,23 @@ namespace fs = std::filesystem;
 
 using Lines = std::vector<std::string>;
 
-// The journal line for a case with the lines that lines_of(entry, run) gives for each of its runs.
+// The lines that lines_of(entry, run) gives for each run of a cloud.
 template <typename LinesOf>
-std::string lines_of_runs(const ExperimentSettings& settings, const CaseId& id, const LinesOf& lines_of) {
+Lines lines_of_runs(const ExperimentSettings& settings, const SeenCase& seen, const LinesOf& lines_of) {
   Lines all;
   for (const Entry& entry : settings.methods) {
     for (const double ratio : settings.ratios) {
-      for (std::string& line : lines_of(entry, RunId{entry.name, id, ratio})) all.push_back(std::move(line));
+      for (std::string& line : lines_of(entry, RunId{entry.name, seen.scene, ratio, seen.scanner}))
+        all.push_back(std::move(line));
     }
   }
-  return journal_line(all);
+  return all;
 }
 
-std::string failed_case(const Dataset& dataset, const ExperimentSettings& settings, const CaseId& id,
-                        const RunFailure& failure) {
-  const std::string sha256 = case_sha256(dataset, id);
-  return lines_of_runs(settings, id, [&](const Entry& /*all*/, const RunId& run) {
-    return Lines{failure_json(run, sha256, failure)};
+Lines failed_runs(const CaseRecord& record, const ExperimentSettings& settings, const SeenCase& seen,
+                  const RunFailure& failure) {
+  return lines_of_runs(settings, seen, [&](const Entry& /*all*/, const RunId& run) {
+    return Lines{failure_json(run, record, failure)};
   });
 }
 
@@ -47,27 +47,35 @@ struct Place {
   int jobs;
 };
 
-// Runs everything for one case; returns its journal line.
-std::string run_case(const Dataset& dataset, const ExperimentSettings& settings, const CaseId& id,
-                     const Place& place) {
-  const CaseData data = read_case(dataset, id);
-  if (std::ranges::none_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; })) {
-    return failed_case(dataset, settings, id, {FailureOf::scene, "no point of the cloud is on a tube"});
-  }
-  const std::string sha256 = case_sha256(dataset, id);
-  const Recipe recipe = recipe_of(dataset, id);
-  return lines_of_runs(settings, id, [&](const Entry& entry, const RunId& run) -> Lines {
+Lines run_cloud(const Dataset& dataset, const ExperimentSettings& settings, const SeenCase& seen,
+                const Place& place) {
+  const CaseData data = read_seen_case(dataset, seen);
+  const CaseRecord record = dataset.catalogue.record(seen.scene);
+  if (std::ranges::none_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; }))
+    return failed_runs(record, settings, seen, {FailureOf::scene, "no point of the cloud is on a tube"});
+  const Recipe recipe = recipe_seen(dataset, seen);
+  return lines_of_runs(settings, seen, [&](const Entry& entry, const RunId& run) -> Lines {
     try {
-      const KnownScene known = known_scene(recipe, data, id, settings.scene);
+      const KnownScene known = known_scene(recipe, data, seen.scene, settings.scene);
       const Modelled modelled = model_by(entry, known, data, run, settings, place.scratch);
       if (settings.keep_models) keep_model(place.results, run, data.cloud, modelled.model);
-      Lines lines{result_json(run, sha256, modelled, score_model(data, modelled.model, modelled.has_tubes))};
+      Lines lines{result_json(run, record, modelled, score_model(data, modelled.model, modelled.has_tubes))};
       if (modelled.seconds) lines.push_back(times_json(run, modelled, circumstances(place.jobs)));
       return lines;
     } catch (const InputError& error) {
-      return {failure_json(run, sha256, {FailureOf::method, complaint_of(error)})};
+      return {failure_json(run, record, {FailureOf::method, complaint_of(error)})};
     }
   });
+}
+
+// The journal line for a case with the lines that lines_of(seen case) gives for each of its clouds.
+template <typename LinesOf>
+std::string journal_line_of(const Dataset& dataset, const CaseId& id, const LinesOf& lines_of) {
+  Lines all;
+  for (const Scanner& scanner : scanners(dataset.recipe)) {
+    for (std::string& line : lines_of(SeenCase{id, scanner.name})) all.push_back(std::move(line));
+  }
+  return journal_line(all);
 }
 
 // Whether the models of a finished case were kept; a run that failed has none.
@@ -94,13 +102,14 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
   expect_names(settings.methods);
   for (const Entry& entry : settings.methods) {
     if (const auto* method = std::get_if<Method>(&entry.what)) expect_available(*method);
+    if (const auto* own = std::get_if<BuiltIn>(&entry.what)) expect_available(own->method);
   }
   expect_free(directory, dataset, settings);
   expect_clouds(dataset);
   make_directories(directory);
   const Journal journal(directory);
   claim(directory, dataset, settings);
-  const RunGrid grid = grid_of(settings);
+  const RunGrid grid = grid_of(settings, dataset.recipe);
   const auto fold_journal = [&](const FinishedRuns& finished) {
     write_results(directory, dataset, settings, finished, journal.staging());
     journal.clear();
@@ -129,16 +138,22 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
   };
   const auto give_up = [&](const TaskFailure& failure) {
     const CaseId& id = missing[failure.task];
-    journal.append({failed_case(dataset, settings, id, {FailureOf::worker, failure.reason})});
+    const CaseRecord record = dataset.catalogue.record(id);
+    journal.append({journal_line_of(dataset, id, [&](const SeenCase& seen) {
+      return failed_runs(record, settings, seen, {FailureOf::worker, failure.reason});
+    })});
     ++summary.progress.failed;
     summary.failed.push_back({id, failure.reason});
     observer.ended({id, 0, 0, failure.reason}, summary.progress);
   };
   observer.begun(missing);
   const Place place{directory, journal.staging(), jobs};
+  const auto run_case = [&](std::size_t task) {
+    return journal_line_of(dataset, missing[task],
+                           [&](const SeenCase& seen) { return run_cloud(dataset, settings, seen, place); });
+  };
   try {
-    run_in_workers(jobs, missing.size(),
-                   [&](std::size_t task) { return run_case(dataset, settings, missing[task], place); },
+    run_in_workers(jobs, missing.size(), run_case,
                    {.done = record,
                     .failed = give_up,
                     .tick = [&] { observer.progress(summary.progress); },

@@ -9,17 +9,18 @@
 
 namespace tanglebin {
 
-SceneScore score_scene(const Dataset& dataset, const CaseId& id, const LabelsDirectory& labels) {
-  const CaseData data = read_case(dataset, id);
-  SceneScore scene{.scene = id};
+SceneScore score_scene(const Dataset& dataset, const SeenCase& seen, const LabelsDirectory& labels) {
+  const CaseData data = read_seen_case(dataset, seen);
+  SceneScore scene{.seen = seen};
   if (std::ranges::none_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; })) {
     scene.failure = {FailureOf::scene, "no point of the cloud is on a tube"};
     return scene;
   }
   try {
     const Entry entry{"labels", labels};
-    const KnownScene known = known_scene(recipe_of(dataset, id), id);
-    Modelled modelled = model_by(entry, known, data, {entry.name, id, 1}, {.ratios = {1}}, {});
+    const KnownScene known = known_scene(recipe_seen(dataset, seen), seen.scene);
+    const RunId run{entry.name, seen.scene, 1, seen.scanner};
+    Modelled modelled = model_by(entry, known, data, run, {.ratios = {1}}, {});
     modelled.model.filtered.resize(data.cloud.points.size());
     std::iota(modelled.model.filtered.begin(), modelled.model.filtered.end(), std::size_t{0});
     scene.score = score_model(data, modelled.model, modelled.has_tubes);
@@ -31,10 +32,11 @@ SceneScore score_scene(const Dataset& dataset, const CaseId& id, const LabelsDir
 
 void add(std::vector<MeanScore>& means, const SceneScore& scene) {
   if (scene.failure && scene.failure->of == FailureOf::scene) return;
-  const CaseId& id = scene.scene;
-  auto mean = std::ranges::find_if(
-      means, [&id](const MeanScore& other) { return other.set == id.set && other.tubes == id.tubes; });
-  if (mean == means.end()) mean = means.insert(mean, {.set = id.set, .tubes = id.tubes});
+  const auto& [id, scanner] = scene.seen;
+  auto mean = std::ranges::find_if(means, [&its = scene.seen](const MeanScore& other) {
+    return other.set == its.scene.set && other.scanner == its.scanner && other.tubes == its.scene.tubes;
+  });
+  if (mean == means.end()) mean = means.insert(mean, {.set = id.set, .scanner = scanner, .tubes = id.tubes});
   ++mean->scenes;
   if (!scene.score) ++mean->failed;
   const auto include = [&](double& mean_value, double value) {

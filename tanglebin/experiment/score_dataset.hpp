@@ -9,21 +9,22 @@
 
 namespace tanglebin {
 
-/// The score of one scene's labels.
+/// The score of one cloud's labels.
 struct SceneScore {
-  CaseId scene;
+  SeenCase seen;
   std::optional<ModelScore> score{};  ///< of all points on tubes; none if it failed
   std::optional<RunFailure> failure{};
 };
 
-/// Scores the labels of a case in a directory (find_labels()). A case without labels or with such that cannot
-/// be read has a failure. Throws InputError as read_case() does.
-SceneScore score_scene(const Dataset& dataset, const CaseId& id, const LabelsDirectory& labels);
+/// Scores the labels of a case's cloud in a directory (find_labels()). A case without labels or with such
+/// that cannot be read has a failure. Throws InputError as read_seen_case() does.
+SceneScore score_scene(const Dataset& dataset, const SeenCase& seen, const LabelsDirectory& labels);
 
-/// The means over the scenes of a set with the same number of tubes. A scene that failed counts as one in
-/// which nothing was found; one without a visible tube does not count.
+/// The means over the scenes of a set with the same number of tubes, as a scanner sees them. A scene that
+/// failed counts as one in which nothing was found; one without a visible tube does not count.
 struct MeanScore {
   std::string set;
+  std::string scanner;
   int tubes;
   std::size_t scenes = 0;
   std::size_t failed = 0;  ///< of these

@@ -22,22 +22,23 @@ double ratio_to_show(const std::vector<double>& ratios) {
 }
 
 void ResultsSummary::add(const RunResult& result) {
-  const auto& [method, id, ratio] = result.run;
+  const RunId& run = result.run;
   if (is_unscored(result)) {
-    unscored_.insert(id);
+    unscored_.insert(seen_case(run));
     return;
   }
   if (result.failure) ++failed_runs_;
-  if (ratio != ratio_) return;
-  auto mean = std::ranges::find_if(means_, [&result](const MeanMicroRecall& other) {
-    return other.method == result.run.method && other.set == result.run.scene.set &&
-           other.tubes == result.run.scene.tubes;
+  if (run.ratio != ratio_) return;
+  auto mean = std::ranges::find_if(means_, [&run](const MeanMicroRecall& other) {
+    return other.method == run.method && other.set == run.scene.set && other.scanner == run.scanner &&
+           other.tubes == run.scene.tubes;
   });
-  if (mean == means_.end()) mean = means_.insert(mean, {method, id.set, id.tubes, 0, 0, 0.0});
+  if (mean == means_.end())
+    mean = means_.insert(mean, {run.method, run.scene.set, run.scanner, run.scene.tubes, 0, 0, 0.0});
   ++mean->cases;
   if (result.failure) ++mean->failed;
   mean->mean += (result.micro_recall - mean->mean) / static_cast<double>(mean->cases);
-  if (!result.failure) scored_[method].push_back({result.micro_recall, id});
+  if (!result.failure) scored_[run.method].push_back({result.micro_recall, seen_case(run)});
 }
 
 FailureCounts ResultsSummary::failures() const {
@@ -49,7 +50,7 @@ std::vector<Example> ResultsSummary::examples(const std::string& method) const {
   if (runs.empty()) return {};
   std::ranges::stable_sort(runs, {}, &ScoredCase::micro_recall);
   const auto example = [](const char* rank, const ScoredCase& run) {
-    return Example{rank, run.scene, run.micro_recall};
+    return Example{rank, run.seen, run.micro_recall};
   };
   const auto best = std::ranges::lower_bound(runs, runs.back().micro_recall, {}, &ScoredCase::micro_recall);
   return {example("best", *best), example("median", runs[(runs.size() - 1) / 2]),

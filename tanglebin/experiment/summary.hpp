@@ -17,10 +17,11 @@ inline constexpr double figure_ratio = 0.3;
 /// The ratio nearest to figure_ratio, of at least one; the smaller of two at the same distance.
 double ratio_to_show(const std::vector<double>& ratios);
 
-/// The mean over the cases with the same method, set and number of tubes.
+/// The mean over the cases with the same method, set, scanner and number of tubes.
 struct MeanMicroRecall {
   std::string method;
   std::string set;
+  std::string scanner;
   int tubes;
   std::size_t cases;
   std::size_t failed;  ///< of these: their micro-recall is 0, because nothing was found
@@ -36,14 +37,14 @@ struct FailureCounts {
 /// A run chosen to represent its method.
 struct Example {
   std::string rank;  ///< "best", "median" or "worst"
-  CaseId scene;
+  SeenCase seen;
   double micro_recall;
 };
 
 /// The score of a case.
 struct ScoredCase {
   double micro_recall;
-  CaseId scene;
+  SeenCase seen;
 };
 
 /// What results say at one ratio. Of each run there, it keeps a number and the case.
@@ -73,7 +74,7 @@ private:
   double ratio_;
   std::vector<MeanMicroRecall> means_{};
   std::size_t failed_runs_ = 0;
-  std::set<CaseId> unscored_{};
+  std::set<SeenCase> unscored_{};
   std::map<std::string, std::vector<ScoredCase>> scored_{};
 };
 

@@ -16,7 +16,7 @@ void append_keys(std::vector<std::string>& names, const Json& json) {
 }
 
 const std::vector<std::string>& run_columns() {
-  static const std::vector<std::string> columns = {"set", "tubes", "case", "method", "ratio"};
+  static const std::vector<std::string> columns = {"set", "tubes", "case", "scanner", "method", "ratio"};
   return columns;
 }
 

@@ -21,14 +21,15 @@ ModelAgain::~ModelAgain() {
   std::filesystem::remove_all(scratch_, ignored);
 }
 
-std::optional<Model> ModelAgain::operator()(const Entry& entry, const CaseId& id,
+std::optional<Model> ModelAgain::operator()(const Entry& entry, const SeenCase& seen,
                                             const CaseData& data) const {
-  const RunId run{entry.name, id, ratio_to_show(settings_.ratios)};
-  const KnownScene known = known_scene(recipe_of(dataset_, id), data, id, settings_.scene);
+  const auto& [scene, scanner] = seen;
+  const RunId run{entry.name, scene, ratio_to_show(settings_.ratios), scanner};
+  const KnownScene known = known_scene(recipe_seen(dataset_, seen), data, scene, settings_.scene);
   try {
     return model_by(entry, known, data, run, settings_, scratch_).model;
   } catch (const InputError&) {
-    if (std::holds_alternative<Method>(entry.what)) throw;
+    if (is_built_in(entry)) throw;
     return std::nullopt;
   }
 }

@@ -19,7 +19,7 @@ public:
 
   /// The model of a case at the ratio to show; none if a command fails this time. Throws InputError as
   /// model_by() does for a method that is built in.
-  std::optional<Model> operator()(const Entry& entry, const CaseId& id, const CaseData& data) const;
+  std::optional<Model> operator()(const Entry& entry, const SeenCase& seen, const CaseData& data) const;
 
 private:
   const Dataset& dataset_;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* contents = R"html(<nav aria-label="Contents">
 <ul>
+<li><a href="#leaderboard">Leaderboard</a></li>
 <li><a href="#table-1">Generation time</a></li>
 <li><a href="#table-2">Modelling time</a></li>
 <li><a href="#figure-8">Micro-recall by number of tubes</a></li>
@@ -22,7 +23,7 @@ constexpr const char* contents = R"html(<nav aria-label="Contents">
 <li><a href="#runs">All runs</a></li>
 <li><a href="#scenes">Scenes in 3D</a></li>
 <li><a href="#pictures">Pictures</a></li>
-<li><a href="#repeat">How to reproduce this page</a></li>
+<li><a href="#repeat">How to make this page again</a></li>
 </ul>
 </nav>
 )html";
@@ -49,9 +50,10 @@ std::string scripts(const Results& results) {
 
 }  // namespace
 
-std::string report_page(const Results& results) {
+std::string report_page(const Results& results, const std::string& page) {
   return html_document("Tanglebin report", head(results),
                        overview(results) + contents + "<main>\n" +  //
+                           leaderboard(results) +                   //
                            generation_times(results) +              // Table 1
                            modelling_times(results) +               // Table 2
                            recall_by_tubes(results) +               // Figure 8
@@ -60,7 +62,7 @@ std::string report_page(const Results& results) {
                            all_runs(results) +                      //
                            scenes_in_3d(results) +                  //
                            example_pictures(results) +              //
-                           how_to_repeat(results) + "</main>\n" + (results.is_papers ? citation : "") +
+                           how_to_repeat(results, page) + "</main>\n" + (results.is_papers ? citation : "") +
                            scripts(results));
 }
 

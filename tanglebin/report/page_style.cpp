@@ -45,7 +45,7 @@ figure { margin: 0 0 1.75rem; }
 figcaption { font-size: 0.9rem; line-height: 1.45; color: var(--soft); max-width: 44rem; }
 figcaption b { color: var(--ink); }
 .plot { color: var(--ink); }
-.plot + figcaption { margin-top: 0.6rem; max-width: 34rem; }
+div + figcaption { margin-top: 0.6rem; max-width: 34rem; }
 .table figcaption { margin-bottom: 0.5rem; }
 .scroll { overflow-x: auto; }
 .scroll:focus-visible { outline: 2px solid var(--link); outline-offset: 2px; }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/report/html.hpp"
 #include "tanglebin/report/sections.hpp"
 #include "tanglebin/report/text.hpp"
@@ -32,8 +33,9 @@ std::string image(const std::string& png, const std::string& file, const std::st
 }
 
 std::string case_text(const RunKey& run) {
-  return fmt::format("set {}, {}, case {}", run.id.set,
-                     counted(static_cast<std::size_t>(run.id.tubes), "tube"), run.id.number);
+  return seen_by(run.scanner,
+                 fmt::format("set {}, {}, case {}", run.id.set,
+                             counted(static_cast<std::size_t>(run.id.tubes), "tube"), run.id.number));
 }
 
 std::string rank_text(const std::string& rank) {

@@ -133,6 +133,17 @@ std::string plot_of(const Results& results, const std::vector<RunScore>& scores,
 // ---- Tables
 // --------------------------------------------------------------------------------------------------
 
+/// Enough for one plot's colours, or one part for each set.
+std::vector<std::vector<RunScore>> parts_to_plot(const std::vector<RunScore>& scores) {
+  constexpr std::size_t most_lines = 6;
+  if (groups_of(scores).size() <= most_lines) return {scores};
+  std::vector<std::vector<RunScore>> parts;
+  const auto set_of = [](const RunScore& score) { return score.run.id.set; };
+  for (const std::string& set : distinct(scores, set_of))
+    parts.push_back(chosen(scores, [&](const RunScore& score) { return set_of(score) == set; }));
+  return parts;
+}
+
 /// "Figure 8" where the figure stands beside the paper's.
 std::string figure_name(const Results& results, int number) {
   return results.is_papers ? fmt::format("Figure {}", number) : "";
@@ -181,8 +192,16 @@ constexpr const char* reading_aid =
 constexpr const char* no_scores =
     "The results have no scores (<code>results.jsonl</code>), so there is nothing to plot.";
 
-std::string plot_figure(const std::string& plot, const std::string& caption_html) {
-  return fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", plot, caption_html);
+/// The plots of a figure, with one caption.
+std::string figure_of(const Results& results, const std::vector<RunScore>& scores, const RecallAxis& axis,
+                      const std::string& x_label, const std::string& caption_html) {
+  const std::vector<std::vector<RunScore>> parts = parts_to_plot(scores);
+  std::string plots;
+  for (const std::vector<RunScore>& part : parts)
+    plots += fmt::format("<div>\n{}</div>\n",
+                         plot_of(results, part, lines_of(results, part, axis), axis, x_label));
+  if (parts.size() > 1) plots = fmt::format("<div class=\"side-by-side\">\n{}</div>\n", plots);
+  return fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", plots, caption_html);
 }
 
 std::string figure_8_note(const std::vector<RecallLine>& lines) {
@@ -208,8 +227,8 @@ std::string recall_by_tubes(const Results& results) {
         "note", fmt::format("The ratio of the paper's Figure 8, {}, was not run; this shows the nearest, {}.",
                             figure_8_ratio, ratio_text(ratio)));
   }
-  content += plot_figure(
-      plot_of(results, scores, lines, tubes_axis, "number of tubes"),
+  content += figure_of(
+      results, scores, tubes_axis, "number of tubes",
       fmt::format("{}Micro-recall by number of tubes at downsampling ratio {}. {}{}", leading(figure),
                   ratio_text(ratio), reading_aid,
                   std::ranges::any_of(lines, has_published) ? " Diamonds: from the paper's text." : ""));
@@ -232,10 +251,10 @@ std::string recall_by_ratio(const Results& results) {
                             figure_9_tubes, tubes));
   }
   content +=
-      plot_figure(plot_of(results, scores, lines, ratio_axis, "downsampling ratio"),
-                  fmt::format("{}Micro-recall by downsampling ratio in bins with {}. {}{}", leading(figure),
-                              counted(static_cast<std::size_t>(tubes), "tube"), reading_aid,
-                              results.is_papers ? " The paper prints no numbers of its Figure 9." : ""));
+      figure_of(results, scores, ratio_axis, "downsampling ratio",
+                fmt::format("{}Micro-recall by downsampling ratio in bins with {}. {}{}", leading(figure),
+                            counted(static_cast<std::size_t>(tubes), "tube"), reading_aid,
+                            results.is_papers ? " The paper prints no numbers of its Figure 9." : ""));
   return section_html("figure-9", heading, content + tables_of(lines, ratio_axis, figure));
 }
 

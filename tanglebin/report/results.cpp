@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -49,37 +50,85 @@ std::vector<TimesRecord> read_generation(const fs::path& file) {
   return times;
 }
 
+// Empty if it is null or missing.
+std::string text_or_null(const JsonRecord& record, const std::string& field) {
+  return record.has(field) && !record.json().at(field).is_null() ? record.text(field) : "";
+}
+
+std::map<std::string, double> numbers_by_name(const JsonRecord& record, const std::string& field) {
+  std::map<std::string, double> numbers;
+  if (!record.has(field)) return numbers;
+  const JsonRecord inner = record.object(field);
+  for (const std::string& name : inner.fields()) numbers[name] = inner.number(name);
+  return numbers;
+}
+
+std::optional<Recipe> recipe_in(const JsonRecord& record, const fs::path& file) {
+  if (!record.has("recipe")) return std::nullopt;
+  std::istringstream text(record.text("recipe"));
+  return read_recipe(text, file.string() + ": recipe");
+}
+
+void add_other_methods(const JsonRecord& others, ExperimentRecord& experiment) {
+  for (const std::string& name : others.fields()) {
+    const JsonRecord other = others.object(name);
+    auto& [option, value] = experiment.options_of_methods[name];
+    option = other.has("labels") ? "--labels" : "--method";
+    if (other.has("labels")) {
+      value = other.text("labels");
+    } else if (other.has("profile")) {
+      value = other.text("method") + ":" + other.text("profile");
+    } else {
+      value = other.text("command");
+      experiment.time_limit = other.number("time_limit", 0);
+      experiment.memory_limit = other.number_or_null("memory_limit", 0, infinity);
+    }
+  }
+}
+
 ExperimentRecord read_experiment(const fs::path& file) {
   const std::optional<std::string> text = read_if_there(file);
   if (!text) {
     throw InputError({file.string(), 0, ""}, "is missing: not a results directory of `tanglebin experiment`");
   }
   const JsonRecord record(*text, file.string(), 0);
-  return {.version = record.text("version"),
-          .dataset_seed = record.whole_number("dataset_seed"),
-          .methods = record.texts("methods"),
-          .ratios = record.numbers("ratios", least_ratio, 1),
-          .seed = record.whole_number("seed"),
-          .cases = record.whole_number("cases"),
-          .recipe_sha256 = record.text("recipe_sha256")};
+  ExperimentRecord experiment{.version = record.text("version"),
+                              .dataset_seed = record.whole_number("dataset_seed"),
+                              .methods = record.texts("methods"),
+                              .ratios = record.numbers("ratios", least_ratio, 1),
+                              .seed = record.whole_number("seed"),
+                              .cases = record.whole_number("cases"),
+                              .recipe_sha256 = record.text("recipe_sha256"),
+                              .recipe = recipe_in(record, file),
+                              .dataset = text_or_null(record, "dataset"),
+                              .dataset_digest = text_or_null(record, "dataset_digest"),
+                              .parameters = numbers_by_name(record, "parameters"),
+                              .has_scene_file = !text_or_null(record, "scene").empty()};
+  if (record.has("other_methods")) add_other_methods(record.object("other_methods"), experiment);
+  return experiment;
 }
 
 // ---- Records
 // -------------------------------------------------------------------------------------------------
 
 RunKey run_of(const JsonRecord& record) {
-  return {
-      .id = id_of(record), .method = record.text("method"), .ratio = record.number("ratio", least_ratio, 1)};
+  return {.id = id_of(record),
+          .method = record.text("method"),
+          .ratio = record.number("ratio", least_ratio, 1),
+          .scanner = text_or_null(record, "scanner")};
 }
 
 RunScore score_of(const JsonRecord& record) {
-  if (const auto failure = failure_in(record)) return {.run = run_of(record), .failure = failure->reason};
-  RunScore score{.run = run_of(record),
-                 .micro_recall = share_of(record, "micro_recall"),
-                 .mean_iou = share_of(record, "mean_iou"),
-                 .f1 = share_of(record, "f1"),
-                 .panoptic_quality = share_of(record, "panoptic_quality"),
-                 .adjusted_rand_index = record.number("adjusted_rand_index", -1, 1)};
+  RunScore score{.run = run_of(record), .drawn = numbers_by_name(record, "drawn")};
+  if (const auto failure = failure_in(record)) {
+    score.failure = failure->reason;
+    return score;
+  }
+  score.micro_recall = share_of(record, "micro_recall");
+  score.mean_iou = share_of(record, "mean_iou");
+  score.f1 = share_of(record, "f1");
+  score.panoptic_quality = share_of(record, "panoptic_quality");
+  score.adjusted_rand_index = record.number("adjusted_rand_index", -1, 1);
   if (!record.has("tubes_found")) return score;  // a method that gives labels only
   score.centre_line_error = record.number_or_null("centre_line_error", 0, infinity);
   score.true_joins = record.whole_number("true_joins");
@@ -156,7 +205,8 @@ std::string scene_of(const JsonRecord& record) {
 }  // namespace
 
 Results read_results_directory(const fs::path& directory) {
-  Results results{.experiment = read_experiment(directory / "experiment.json"),
+  Results results{.directory = directory.string(),
+                  .experiment = read_experiment(directory / "experiment.json"),
                   .is_papers = false,
                   .scores = {},
                   .unscored = {},

@@ -3,12 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/recipe/case_id.hpp"
+#include "tanglebin/recipe/recipe.hpp"
 
 // The contents of a results directory (docs/formats.md).
 namespace tanglebin {
@@ -22,13 +24,24 @@ struct ExperimentRecord {
   std::uint64_t seed = 0;
   std::size_t cases = 0;
   std::string recipe_sha256;
+  std::optional<Recipe> recipe{};  ///< the dataset's
+  std::string dataset{};           ///< its directory; empty if unknown
+  std::string dataset_digest{};    ///< empty if unknown
+  /// What `experiment` was told of methods that are not built in as they are, by name: an option and the name
+  /// with its value, such as "--method" and "mine=python3 label.py {cloud} {out}".
+  std::map<std::string, std::pair<std::string, std::string>> options_of_methods{};
+  std::optional<double> time_limit{};          ///< of commands, s
+  std::optional<double> memory_limit{};        ///< the same, bytes
+  std::map<std::string, double> parameters{};  ///< that are not the default
+  bool has_scene_file = false;                 ///< methods were told what a scene file says
 };
 
-/// Identifies a run: a case, a method and a downsampling ratio.
+/// Identifies a run: a case, a method, a downsampling ratio and a scanner.
 struct RunKey {
   CaseId id;
   std::string method;
   double ratio = 1;
+  std::string scanner{};  ///< its name; empty for the one [scanner] of a recipe
 };
 
 /// The score of a run (results.jsonl). docs/metrics.md defines the measures. A run that failed has the score
@@ -43,8 +56,9 @@ struct RunScore {
   double adjusted_rand_index = 0;
   std::optional<double> centre_line_error{};  ///< m; none if no tube was found
   std::size_t true_joins = 0;
-  std::size_t joins_found = 0;  ///< of the true ones
-  std::size_t joins_made = 0;   ///< true or not
+  std::size_t joins_found = 0;            ///< of the true ones
+  std::size_t joins_made = 0;             ///< true or not
+  std::map<std::string, double> drawn{};  ///< for its case, by path in the recipe
 };
 
 /// How long a run took (times.jsonl).
@@ -66,6 +80,7 @@ struct CasePictures {
 
 /// The contents of a results directory.
 struct Results {
+  std::string directory;  ///< where they are
   ExperimentRecord experiment;
   bool is_papers = false;  ///< the recipe is the paper's, so that its numbers can be compared
   std::vector<RunScore> scores;

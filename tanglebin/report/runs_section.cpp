@@ -1,7 +1,9 @@
 // Every run, to sort, filter and plot.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "tanglebin/io/json_record.hpp"
@@ -14,7 +16,39 @@ namespace tanglebin {
 namespace {
 
 auto key_of(const RunKey& run) {
-  return std::tuple(run.id.set, run.id.tubes, run.id.number, run.method, run.ratio);
+  return std::tuple(run.id.set, run.id.tubes, run.id.number, run.scanner, run.method, run.ratio);
+}
+
+/// What a number drawn for a run's case is called, whatever set or scanner it is of: "tube.radius" of
+/// "set[2].tube.radius", "scanner.sigma" of "scanner[1].sigma". Empty for a number of another scanner.
+std::string variable_of(const std::string& path, const RunKey& run, const std::optional<Recipe>& recipe) {
+  const std::size_t bracket = path.find("].");
+  if (path.starts_with("set[") && bracket != std::string::npos) return path.substr(bracket + 2);
+  if (!path.starts_with("scanner[") || bracket == std::string::npos || !recipe) return path;
+  const std::vector<Scanner> all = scanners(*recipe);
+  const std::size_t own =
+      static_cast<std::size_t>(std::ranges::find(all, run.scanner, &Scanner::name) - all.begin());
+  return path.starts_with(fmt::format("scanner[{}].", own)) ? "scanner." + path.substr(bracket + 2) : "";
+}
+
+/// The numbers that were drawn for the runs' cases, as columns.
+Json drawn_columns_of(const Results& results) {
+  std::map<std::string, std::vector<std::optional<double>>> columns;
+  for (std::size_t i = 0; i < results.scores.size(); ++i) {
+    const RunScore& score = results.scores[i];
+    for (const auto& [path, value] : score.drawn) {
+      const std::string name = variable_of(path, score.run, results.experiment.recipe);
+      if (name.empty()) continue;
+      auto& column = columns[name];
+      column.resize(results.scores.size());
+      column[i] = value;
+    }
+  }
+  Json json = Json::object();
+  for (const auto& [name, column] : columns) {
+    for (const std::optional<double>& value : column) json[name].push_back(value ? Json(*value) : Json());
+  }
+  return json;
 }
 
 /// The runs as columns: a list of values for each name, with null where a run has none.
@@ -27,6 +61,7 @@ Json columns_of(const Results& results) {
     columns["set"].push_back(run.id.set);
     columns["tubes"].push_back(run.id.tubes);
     columns["case"].push_back(run.id.number);
+    columns["scanner"].push_back(run.scanner);
     columns["method"].push_back(run.method);
     columns["ratio"].push_back(run.ratio);
     columns["micro_recall"].push_back(score.micro_recall);
@@ -41,6 +76,7 @@ Json columns_of(const Results& results) {
     columns["seconds"].push_back(time == seconds.end() ? Json() : Json(time->second));
     columns["failed"].push_back(!score.failure.empty());
   }
+  columns["drawn"] = drawn_columns_of(results);
   return columns;
 }
 
@@ -52,10 +88,13 @@ std::string all_runs(const Results& results) {
     return section_html("runs", heading,
                         paragraph("missing", "The results have no scores (<code>results.jsonl</code>)."));
   }
-  const std::string note = paragraph(
-      "note",
-      "Each row is a run: a case, a method and a downsampling ratio. Choose what to plot, choose which runs "
-      "count, and sort by any column. A failed run counts as one that found nothing.");
+  const std::string note =
+      paragraph("note",
+                "Each row is a run: a case, a method and a downsampling ratio, and a scanner if there are "
+                "several. Columns "
+                "after the seconds, if any, are numbers that the recipe draws for each case. Choose what to "
+                "plot, choose which runs "
+                "count, and sort by any column. A failed run counts as one that found nothing.");
   const std::string without =
       paragraph("note", "This needs JavaScript. <code>results.jsonl</code> has the same numbers.");
   return section_html("runs", heading,

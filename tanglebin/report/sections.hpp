@@ -10,6 +10,9 @@ namespace tanglebin {
 /// What was run, with the headline numbers.
 std::string overview(const Results& results);
 
+/// Each method's mean micro-recall, the best first: of all scenes, by set, by scanner and by number of tubes.
+std::string leaderboard(const Results& results);
+
 /// Table 1: generation time of cases, by number of tubes.
 std::string generation_times(const Results& results);
 
@@ -34,7 +37,7 @@ std::string scenes_in_3d(const Results& results);
 /// The best, median and worst cases, with their true and their modelled labels.
 std::string example_pictures(const Results& results);
 
-/// The commands that reproduce these results and this page.
-std::string how_to_repeat(const Results& results);
+/// The commands that reproduce these results and the page, a file of this name.
+std::string how_to_repeat(const Results& results, const std::string& page);
 
 }  // namespace tanglebin

@@ -49,6 +49,7 @@ std::string draw_example(const Example& example, const RunId& run, const std::fi
 
   Json line{{"method", run.method}, {"rank", example.rank}};
   line.update(id_json(run.scene));
+  if (!run.scanner.empty()) line["scanner"] = run.scanner;
   line["ratio"] = run.ratio;
   line["micro_recall"] = example.micro_recall;
   line["truth"] = truth;
@@ -66,9 +67,11 @@ void write_pictures(const std::filesystem::path& directory, const Dataset& datas
   std::string lines;
   for (const Entry& entry : settings.methods) {
     for (const Example& example : summary.examples(entry.name)) {
-      const CaseData data = read_case(dataset, example.scene);
-      if (const std::optional<Model> model = model_again(entry, example.scene, data))
-        lines += draw_example(example, {entry.name, example.scene, summary.ratio()}, directory, data, *model);
+      const auto& [scene, scanner] = example.seen;
+      const CaseData data = read_seen_case(dataset, example.seen);
+      const RunId run{entry.name, scene, summary.ratio(), scanner};
+      if (const std::optional<Model> model = model_again(entry, example.seen, data))
+        lines += draw_example(example, run, directory, data, *model);
     }
   }
   write_file(directory / "pictures.jsonl", lines);

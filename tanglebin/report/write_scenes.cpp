@@ -19,31 +19,31 @@
 namespace tanglebin {
 namespace {
 
-/// A case by how much it is to be shown: the smaller, the more.
+/// A cloud by how much it is to be shown: the smaller, the more.
 struct Ranked {
-  CaseId id;
+  SeenCase seen;
   double rank;
 };
 
 std::vector<Ranked> ranked_by_recall(const std::vector<ScoredCase>& scores) {
   std::vector<Ranked> cases;
   cases.reserve(scores.size());
-  for (const auto& [micro_recall, id] : scores) cases.push_back({id, micro_recall});
+  for (const auto& [micro_recall, seen] : scores) cases.push_back({seen, micro_recall});
   return cases;
 }
 
 std::vector<Ranked> ranked_by_difference(const ResultsSummary& results, const std::vector<Entry>& methods) {
-  std::map<CaseId, std::pair<double, double>> extremes;
+  std::map<SeenCase, std::pair<double, double>> extremes;
   for (const Entry& method : methods) {
-    for (const auto& [micro_recall, id] : results.scores(method.name)) {
-      auto& [least, most] = extremes.try_emplace(id, micro_recall, micro_recall).first->second;
+    for (const auto& [micro_recall, seen] : results.scores(method.name)) {
+      auto& [least, most] = extremes.try_emplace(seen, micro_recall, micro_recall).first->second;
       least = std::min(least, micro_recall);
       most = std::max(most, micro_recall);
     }
   }
   std::vector<Ranked> cases;
-  for (const auto& [id, range] : extremes) {
-    if (range.first < range.second) cases.push_back({id, range.first - range.second});
+  for (const auto& [seen, range] : extremes) {
+    if (range.first < range.second) cases.push_back({seen, range.first - range.second});
   }
   return cases;
 }
@@ -53,8 +53,8 @@ void add_first(std::vector<Ranked> cases, std::size_t count, const std::string& 
   std::ranges::stable_sort(cases, {}, &Ranked::rank);
   cases.resize(std::min(cases.size(), count));
   for (const Ranked& ranked : cases) {
-    auto scene = std::ranges::find(scenes, ranked.id, &SceneToShow::id);
-    if (scene == scenes.end()) scene = scenes.insert(scene, {ranked.id, {}});
+    auto scene = std::ranges::find(scenes, ranked.seen, &SceneToShow::seen);
+    if (scene == scenes.end()) scene = scenes.insert(scene, {ranked.seen, {}});
     scene->reasons.push_back(reason);
   }
 }
@@ -63,18 +63,18 @@ void add_first(std::vector<Ranked> cases, std::size_t count, const std::string& 
 class ShownCase {
 public:
   ShownCase(const Dataset& dataset, const SceneToShow& scene, double ratio)
-      : id_(scene.id),
-        data_(read_case(dataset, scene.id)),
-        scene_{.name = fmt::format("{}, ratio {} ({})", name_of(scene.id), ratio_text(ratio),
+      : seen_(scene.seen),
+        data_(read_seen_case(dataset, seen_)),
+        scene_{.name = fmt::format("{}, ratio {} ({})", name_of(seen_), ratio_text(ratio),
                                    fmt::join(scene.reasons, ", ")),
                .cloud = {},
                .truth = {},
                .found = {},
-               .support = {.bin = recipe_of(dataset, scene.id).bin}} {}
+               .support = {.bin = recipe_of(dataset, seen_.scene).bin}} {}
 
   /// The first method's filter chooses the points. The others' are the same, unless they were set apart.
   void add(const Entry& method, const ModelAgain& model_again) {
-    const std::optional<Model> model = model_again(method, id_, data_);
+    const std::optional<Model> model = model_again(method, seen_, data_);
     if (!model) return;
     if (!scene_.truth) choose_points(model->filtered);
     scene_.found.push_back(
@@ -95,14 +95,14 @@ private:
                     .tubes = data_.tubes};
   }
 
-  CaseId id_;
+  SeenCase seen_;
   CaseData data_;
   ViewedScene scene_;
   std::vector<std::size_t> shown_;
 };
 
-bool has_score(const std::vector<ScoredCase>& scores, const CaseId& id) {
-  return std::ranges::find(scores, id, &ScoredCase::scene) != scores.end();
+bool has_score(const std::vector<ScoredCase>& scores, const SeenCase& seen) {
+  return std::ranges::find(scores, seen, &ScoredCase::seen) != scores.end();
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ void write_scenes(const std::filesystem::path& directory, const Dataset& dataset
   for (const SceneToShow& scene : scenes_to_show(results, settings.methods, count)) {
     ShownCase shown(dataset, scene, results.ratio());
     for (const Entry& method : settings.methods) {
-      if (has_score(results.scores(method.name), scene.id)) shown.add(method, model_again);
+      if (has_score(results.scores(method.name), scene.seen)) shown.add(method, model_again);
     }
     if (!shown.is_empty()) lines += shown.json() + '\n';
   }

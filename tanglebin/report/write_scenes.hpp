@@ -10,9 +10,9 @@
 
 namespace tanglebin {
 
-/// A case to show in 3D, and why.
+/// A cloud to show in 3D, and why.
 struct SceneToShow {
-  CaseId id;
+  SeenCase seen;
   std::vector<std::string> reasons;  ///< "worst of axis", "methods differ"
 };
 

@@ -26,6 +26,7 @@ using test::ProgramResult;
 using test::run_program;
 using test::run_shell;
 using test::write_bytes;
+using testing::AllOf;
 using testing::HasSubstr;
 
 const fs::path examples = fs::path(TANGLEBIN_SOURCE) / "examples" / "benchmark";
@@ -108,8 +109,23 @@ private:
   }
 };
 
+// Options for the built-in methods and the reference entries, as far as they are at hand.
+std::string entries_at_hand() {
+  std::string options = "--method axis ";
+#ifdef TANGLEBIN_REFERENCE_ENTRIES
+  const std::string entries = TANGLEBIN_REFERENCE_ENTRIES;
+  options += "--method paper --method clusters='" + entries +
+             "/euclidean_clusters {cloud.pcd} {scene} {out.pcd}' --method regions='" + entries +
+             "/region_growing {cloud.pcd} {scene} {out.pcd}' ";
+#endif
+  if (run_shell("/usr/bin/python3 -c 'import sklearn'").status == 0)
+    options += "--method dbscan='/usr/bin/python3 " + (examples / "dbscan.py").string() +
+               " {cloud} {scene} {out.npy}' ";
+  return options;
+}
+
 TEST_F(Benchmark, IsTheSameWithOneWorkerTwoWorkersTwoShardsAndAfterKills) {
-  const std::string options = "--method axis --method crash='sh " + path("crash.sh") +
+  const std::string options = entries_at_hand() + "--method crash='sh " + path("crash.sh") +
                               " {cloud} {out.txt}' --method hang='sh " + path("hang.sh") +
                               " {cloud} {out.txt}' --time-limit 6 --json";
   const ProgramResult one = experiment("one", options + " --jobs 1");
@@ -122,7 +138,8 @@ TEST_F(Benchmark, IsTheSameWithOneWorkerTwoWorkersTwoShardsAndAfterKills) {
   ASSERT_EQ(hangs.size(), 1U);
   EXPECT_EQ(hangs.begin()->first, "the command took longer than 6 s");
   EXPECT_LE(hangs.begin()->second, 2) << "of one cloud, at two ratios";
-  EXPECT_TRUE(rows_of("axis", "one").second.empty());
+  for (const char* method : {"axis", "paper", "clusters", "regions", "dbscan"})
+    EXPECT_TRUE(rows_of(method, "one").second.empty()) << method;
   EXPECT_EQ(nlohmann::json::parse(one.out).at("failed_runs"),
             crashes.begin()->second + hangs.begin()->second);
   EXPECT_THAT(bytes_of(path("one/results.csv")), HasSubstr(",method,the command took longer than 6 s,0.0,"));
@@ -149,7 +166,26 @@ TEST_F(Benchmark, IsTheSameWithOneWorkerTwoWorkersTwoShardsAndAfterKills) {
   const ProgramResult page = run_program("report " + path("one") + " --out " + path("page.html"));
   EXPECT_EQ(page.status, 0) << page.err;
   EXPECT_THAT(bytes_of(path("page.html")),
-              HasSubstr("runs failed; a failed run counts as one that found nothing"));
+              AllOf(HasSubstr("runs failed; a failed run counts as one that found nothing"),
+                    HasSubstr("tanglebin experiment " + path("dataset") + " --out " + path("one")),
+                    HasSubstr("tanglebin report " + path("one") + " --out " + path("page.html"))));
+}
+
+TEST_F(Benchmark, SettingsOfABuiltInMethodAreComparedByName) {
+  write_bytes(path("strict.toml"), "format = 1\naxis.label.distance_max = 0.01\n");
+  write_bytes(path("same.toml"), "format = 1\n");
+  const std::string options = "--method axis --method same=axis:" + path("same.toml") +
+                              " --method strict=axis:" + path("strict.toml");
+  const ProgramResult run = experiment("results", options);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(rows_of("strict", "results").first, 12);
+  EXPECT_EQ(mean_of("same", "results"), mean_of("axis", "results"));
+  EXPECT_NE(mean_of("strict", "results"), mean_of("axis", "results"));
+  EXPECT_EQ(run_program("report " + path("results") + " --out " + path("page.html")).status, 0);
+  EXPECT_THAT(bytes_of(path("page.html")), HasSubstr("--method strict=axis:" + path("strict.toml")));
+
+  write_bytes(path("strict.toml"), "format = 1\naxis.label.distance_max = 0.02\n");
+  EXPECT_EQ(experiment("results", options).status, 2) << "another experiment";
 }
 
 TEST_F(Benchmark, OurOwnLabelsInADirectoryHaveOurScores) {
@@ -257,6 +293,8 @@ TEST_F(Benchmark, BadInputIsExitStatusTwoAndNothingIsBegun) {
   expect_error("--method mine='true {cloud}'", "{out} or {tubes}");
   expect_error("--method axis=true", "{cloud}");
   expect_error("--method 'axis=true {cloud} {out}'", "another name than that of a built-in method");
+  expect_error("--method mine=axis:absent.toml", "absent.toml: cannot be opened");
+  expect_error("--method axis=axis:absent.toml", "absent.toml: cannot be opened");
   expect_error("--labels labels", "--labels: found 'labels', expected NAME=");
   expect_error("--shard 3/2", "--shard");
 }

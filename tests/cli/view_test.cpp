@@ -103,6 +103,23 @@ TEST_F(ViewCommand, ShowsAConfigurationsTubes) {
   EXPECT_EQ(scene.at("bin").size(), 8U);
 }
 
+TEST_F(ViewCommand, ShowsTheTubesOfTubesJson) {
+  const ProgramResult modelled = run(
+      "model dataset/A2/plys/1.ply --scene dataset --out - --modelled-tubes tubes.json > labelled-again.ply");
+  ASSERT_EQ(modelled.status, 0) << modelled.err;
+  const json scene = viewed("tubes.json");
+  EXPECT_THAT(names(scene), ElementsAre("tubes"));
+  EXPECT_EQ(scene.at("labellings")[0].at("tubes"), viewed("tubes.txt").at("labellings")[0].at("tubes"));
+  EXPECT_EQ(viewed("dataset/A2/1 --labelled labelled.ply --modelled-tubes tubes.json"),
+            viewed("dataset/A2/1 --labelled labelled.ply --modelled-tubes tubes.txt"));
+  EXPECT_EQ(run("score --truth dataset/A2/plys/1.ply --labelled labelled.ply --true-tubes "
+                "dataset/A2/tube_configurations/1.txt --modelled-tubes tubes.json")
+                .out,
+            run("score --truth dataset/A2/plys/1.ply --labelled labelled.ply --true-tubes "
+                "dataset/A2/tube_configurations/1.txt --modelled-tubes tubes.txt")
+                .out);
+}
+
 TEST_F(ViewCommand, SaysWhatIsWrongWithItsInputAndExitsWith2) {
   const auto message = [&](const std::string& arguments) {
     const ProgramResult made = run("view " + arguments);
@@ -114,7 +131,7 @@ TEST_F(ViewCommand, SaysWhatIsWrongWithItsInputAndExitsWith2) {
   EXPECT_THAT(message("absent.ply --out a.html"), HasSubstr("absent.ply: cannot be opened"));
   EXPECT_THAT(message("dataset/A2/1 --out a.png"), HasSubstr("--out: found 'a.png'"));
   EXPECT_THAT(message("dataset/A2/tube_configurations/1.txt --labelled labelled.ply --out a.html"),
-              HasSubstr("--labelled: found a configuration to view"));
+              HasSubstr("--labelled: found tubes to view"));
   EXPECT_THAT(message("dataset/A2/1 --modelled-tubes recipe.toml --out a.html"), HasSubstr("recipe.toml:1"));
 }
 

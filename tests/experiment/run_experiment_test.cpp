@@ -19,6 +19,7 @@
 #include "tanglebin/experiment/results.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/ply.hpp"
+#include "tanglebin/model/parameters.hpp"
 #include "tanglebin/runs/file_lock.hpp"
 #include "tests/experiment/small_dataset.hpp"
 #include "tests/support/complaint.hpp"
@@ -92,6 +93,74 @@ TEST_F(RunExperiment, LeavesALineForEachRunInTheOrderOfMethodCaseAndRatio) {
   }
 }
 
+TEST_F(RunExperiment, ModelsTheCloudOfEachScannerAndTellsWhatWasDrawnForTheCase) {
+  std::istringstream text(
+      "seed = 7\n[[scanner]]\nname = \"left\"\nwidth = 480\nheight = 300\nposition = [-0.1, 0, 2]\n"
+      "[[scanner]]\nname = \"right\"\nwidth = 480\nheight = 300\nposition = [0.1, 0, 2]\n"
+      "[bin]\nfriction = { min = 0.5, max = 1 }\n"
+      "[[set]]\nname = \"A\"\ntubes = [1]\ncases = 2\n"
+      "tube = { radius = 0.0125, mass = 0.5, length = 0.3, bend_max_deg = 30 }\n");
+  const SmallDataset two_scanners(read_recipe(text, "recipe"));
+  const Dataset dataset = two_scanners.read();
+  const TemporaryDirectory results;
+  const TemporaryDirectory copies;
+  settings_.methods = {entry_of(Method::axis)};
+  settings_.keep_models = true;
+  EXPECT_TRUE(run_experiment(dataset, settings_, cases(dataset), results.path(), 2).is_complete());
+
+  const auto lines = lines_of(bytes_of(results / "results.jsonl"));
+  ASSERT_EQ(lines.size(), 2U * 2 * 2) << "cases, scanners, ratios";
+  std::size_t line = 0;
+  for (const CaseId& id : cases(dataset)) {
+    for (const char* scanner : {"left", "right"}) {
+      const CaseData data = read_seen_case(dataset, {id, scanner});
+      for (const double ratio : settings_.ratios) {
+        const auto json = nlohmann::json::parse(lines[line++]);
+        EXPECT_EQ(json.at("scanner"), scanner);
+        EXPECT_EQ(json.at("ratio").get<double>(), ratio);
+        EXPECT_EQ(json.at("drawn").at("bin.friction").get<double>(), recipe_of(dataset, id).bin.friction);
+        const RunId run{"axis", id, ratio, scanner};
+        const Model model =
+            model_case(known_scene(recipe_seen(dataset, {id, scanner}), id), data, run, settings_);
+        EXPECT_EQ(json.at("micro_recall").get<double>(), score_model(data, model).labels.micro_recall);
+      }
+    }
+  }
+  EXPECT_EQ(run_experiment(dataset, settings_, cases(dataset), results.path(), 1).progress.made, 0U);
+
+  // Labels that exist are looked for by scanner.
+  settings_.methods = {{"copy", LabelsDirectory{(results / "models/axis/{ratio}").string()}}};
+  settings_.keep_models = false;
+  run_experiment(dataset, settings_, cases(dataset), copies.path(), 1);
+  const auto copied = lines_of(bytes_of(copies / "results.jsonl"));
+  ASSERT_EQ(copied.size(), lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    EXPECT_EQ(nlohmann::json::parse(copied[i]).at("micro_recall"),
+              nlohmann::json::parse(lines[i]).at("micro_recall"));
+  }
+}
+
+TEST_F(RunExperiment, ABuiltInMethodMayHaveSettingsOfItsOwn) {
+  const TemporaryDirectory results;
+  ModelSettings other = settings_.model;
+  set_parameter(other, "axis.label.distance_max", 0.01);
+  settings_.methods = {entry_of(Method::axis),
+                       {"same", BuiltIn{Method::axis, "same.toml", settings_.model}},
+                       {"other", BuiltIn{Method::axis, "other.toml", other}}};
+  settings_.ratios = {1};
+  run(results, {{"A", 3, 2}});
+  const auto lines = lines_of(bytes_of(results / "results.jsonl"));
+  ASSERT_EQ(lines.size(), 3U);
+  auto axis = nlohmann::json::parse(lines[0]);
+  axis["method"] = "same";
+  EXPECT_EQ(nlohmann::json::parse(lines[1]), axis);
+  axis["method"] = "other";
+  EXPECT_NE(nlohmann::json::parse(lines[2]), axis);
+  const auto others = nlohmann::json::parse(bytes_of(results / "experiment.json")).at("other_methods");
+  EXPECT_EQ(others.at("other").at("method"), "axis");
+  EXPECT_EQ(others.at("other").at("parameters"), nlohmann::json({{"axis.label.distance_max", 0.01}}));
+}
+
 TEST_F(RunExperiment, NeedsClouds) {
   const TemporaryDirectory results;
   Dataset dataset = dataset_.read();
@@ -110,7 +179,7 @@ TEST_F(RunExperiment, ALineHasWhatModellingAndScoringTheCaseGive) {
   const CaseData data = read_case(dataset, id.scene);
   const Model model = model_case(known_scene(recipe_of(dataset, id.scene), id.scene), data, id, settings_);
   EXPECT_EQ(lines_of(bytes_of(results / "results.jsonl")).at(0),
-            result_json(id, case_sha256(dataset, id.scene), {.model = model}, score_model(data, model)));
+            result_json(id, dataset.catalogue.record(id.scene), {.model = model}, score_model(data, model)));
 }
 
 TEST_F(RunExperiment, SaysWhatTheResultsFollowFromAndHowLongTheDatasetTook) {

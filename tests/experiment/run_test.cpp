@@ -124,7 +124,8 @@ TEST(ResultJson, HasTheScoresOfTheModelComputedDirectly) {
   const TubesScore expected_tubes = score_tubes(data.tubes, model.tubes);
 
   const Modelled modelled{.model = model, .seconds = 1.5};
-  const auto json = nlohmann::json::parse(result_json(run, "0f", modelled, score_model(data, model)));
+  const auto json = nlohmann::json::parse(
+      result_json(run, dataset.catalogue.record(run.scene), modelled, score_model(data, model)));
   EXPECT_GT(expected.micro_recall, 0);
   EXPECT_EQ(json.at("points"), expected.points);
   EXPECT_EQ(json.at("micro_recall").get<double>(), expected.micro_recall);

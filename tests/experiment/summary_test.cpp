@@ -61,7 +61,7 @@ TEST(Examples, AreOfRunsThatDidNotFail) {
   const auto found = summary_of({failed({"A", 1, 1}, 0.3, FailureOf::method), result({"A", 1, 2}, 0.3, 0.2)})
                          .examples("paper");
   ASSERT_EQ(found.size(), 3U);
-  for (const Example& example : found) EXPECT_EQ(example.scene.number, 2);
+  for (const Example& example : found) EXPECT_EQ(example.seen.scene.number, 2);
 }
 
 TEST(Examples, AreTheBestTheMedianAndTheWorstAndOfEqualsTheFirst) {
@@ -71,11 +71,11 @@ TEST(Examples, AreTheBestTheMedianAndTheWorstAndOfEqualsTheFirst) {
                          .examples("paper");
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(found[0].rank, "best");
-  EXPECT_EQ(found[0].scene.number, 2);
+  EXPECT_EQ(found[0].seen.scene.number, 2);
   EXPECT_EQ(found[1].rank, "median");
-  EXPECT_EQ(found[1].scene.number, 1);
+  EXPECT_EQ(found[1].seen.scene.number, 1);
   EXPECT_EQ(found[2].rank, "worst");
-  EXPECT_EQ(found[2].scene.number, 3);
+  EXPECT_EQ(found[2].seen.scene.number, 3);
 }
 
 TEST(Examples, OfNoRunsAreNone) {

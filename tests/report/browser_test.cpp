@@ -86,7 +86,7 @@ void expect_a_sound_page(const json& page, std::size_t pictures, std::size_t ser
   std::vector<int> headings = page["headings"].get<std::vector<int>>();
   EXPECT_EQ(headings.front(), 1);
   headings.erase(headings.begin());
-  EXPECT_THAT(headings, AllOf(SizeIs(9), Each(2)));
+  EXPECT_THAT(headings, AllOf(SizeIs(10), Each(2)));
 }
 
 class Browser : public testing::Test {
@@ -175,6 +175,45 @@ TEST_F(Browser, SortsFiltersAndPlotsAllRuns) {
                             StartsWith("Histogram of mean IoU of 60 runs.")));
     EXPECT_THAT(told["inked"].get<std::vector<int>>(), Each(Gt(1000)));
   }
+}
+
+// Plots against a scanner, whose names stand side by side, and against a number that is drawn.
+constexpr const char* try_scanners = R"js(
+addEventListener("load", () => {
+  const root = document.querySelector(".runs");
+  const choose = (i, value) => {
+    const select = root.querySelectorAll("select")[i];
+    select.value = value;
+    select.dispatchEvent(new Event("change"));
+  };
+  const chart = Chart.getChart(root.querySelector("canvas"));
+  const places = () => [...new Set(chart.data.datasets.flatMap(({ data }) => data.map(({ x }) => x)))].sort();
+  const told = { headings: [...root.querySelectorAll("thead button")].map(button => button.textContent) };
+  choose(1, "scanner");
+  told.scanners = places();
+  told.ticks = chart.scales.x.ticks.map(tick => tick.label);
+  told.mean = chart.data.datasets[0].data[1].text;
+  choose(1, "bin.friction");
+  told.frictions = places();
+  choose(3, "right");
+  told.rows = root.querySelector("output").value;
+  parent.postMessage(JSON.stringify(told), "*");
+});
+)js";
+
+TEST_F(Browser, PlotsAgainstScannersAndDrawnNumbers) {
+  const std::string page = synthetic_page(
+      {.sets = {"A"}, .tubes = {5}, .cases = 10, .scanners = {"right", "left"}, .ratios = {0.3}});
+  const json told = test::told_by_page(page, try_scanners, 1280);
+  ASSERT_TRUE(told.is_object());
+  EXPECT_THAT(told["headings"].get<std::vector<std::string>>(),
+              testing::IsSupersetOf({"scanner", "bin.friction"}));
+  EXPECT_THAT(told["scanners"].get<std::vector<double>>(), ElementsAre(0, 1));
+  EXPECT_THAT(told["ticks"].get<std::vector<std::string>>(), ElementsAre("left", "right"));
+  EXPECT_THAT(told["mean"].get<std::string>(),
+              testing::ContainsRegex("^paper, scanner right: mean 0.* of 10 runs$"));
+  EXPECT_THAT(told["frictions"].get<std::vector<double>>(), ElementsAre(0.5, 0.625, 0.75, 0.875));
+  EXPECT_EQ(told["rows"], "runs 1 to 10 of 10");
 }
 
 // The measurements above would tell.

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <tuple>
+
 #include "tests/report/synthetic_results.hpp"
 
 namespace tanglebin {
@@ -118,10 +121,103 @@ TEST(Page, TheHeadHasTheHeadlineNumbers) {
   EXPECT_THAT(page, HasSubstr("i7-8750H"));
 }
 
-TEST(Page, TellsTheCommandsThatMadeIt) {
-  EXPECT_THAT(
-      report_page(small_results()),
-      HasSubstr("tanglebin experiment dataset --out results --method paper --downsample 0.3 --seed 5\n"));
+std::string commands_in(const Results& results) {
+  const std::string page = report_page(results, "pages/report.html");
+  const std::size_t begin = page.find("<code>", page.find("<pre"));
+  return page.substr(begin + 6, page.find("</code>", begin) - begin - 6);
+}
+
+TEST(Page, TellsTheCommandsThatMadeItWithTheirDirectoriesAndMethods) {
+  Results results = small_results();
+  results.directory = "my results";
+  results.experiment.dataset = "sets/dataset";
+  results.experiment.methods = {"paper", "mine", "strict"};
+  results.experiment.options_of_methods = {{"mine", {"--method", "python3 it's.py {cloud} {out}"}},
+                                           {"strict", {"--method", "axis:strict.toml"}}};
+  results.experiment.time_limit = 60;
+  results.experiment.memory_limit = 1U << 29U;
+  results.experiment.parameters = {{"axis.fit.tolerance", 0.1}};
+  EXPECT_EQ(commands_in(results),
+            "tanglebin generate sets/dataset/recipe.toml --out sets/dataset\n"
+            "tanglebin experiment sets/dataset --out &#39;my results&#39; \\\n"
+            "  --method paper \\\n"
+            "  --method mine=&#39;python3 it&#39;\\&#39;&#39;s.py {cloud} {out}&#39; \\\n"
+            "  --method strict=axis:strict.toml \\\n"
+            "  --downsample 0.3 --seed 5 --time-limit 60 --memory-limit 0.5 \\\n"
+            "  --parameter axis.fit.tolerance=0.1\n"
+            "tanglebin report &#39;my results&#39; --out pages/report.html\n");
+}
+
+TEST(Page, TellsHowTheCasesWereChosen) {
+  std::istringstream recipe(
+      "[[set]]\nname = \"A\"\ntubes = [1, 2, 10]\ncases = 9\n"
+      "tube = { radius = 0.0125, mass = 0.5, length = 0.5, bend_max_deg = 30 }\n"
+      "[[set]]\nname = \"B\"\ntubes = [10]\ncases = 9\n"
+      "tube = { radius = 0.0125, mass = 0.5, length = 0.5, bend_max_deg = 45 }\n");
+  Results results = small_results();
+  results.experiment.recipe = read_recipe(recipe, "recipe");
+  results.generation.clear();
+  for (const char* set : {"A", "B"}) {
+    for (const int number : {1, 2, 3, 7}) results.generation.push_back(generation({set, 10, number}, 1));
+  }
+  results.scores = {score(run_of("A", 1), 0.9), score(run_of("A", 2), 0.8)};
+  EXPECT_THAT(commands_in(results), HasSubstr("--out dataset --tubes 10 --cases 1-3,7\n"));
+  EXPECT_THAT(commands_in(results), HasSubstr("\n  --set A --cases 1-2 --downsample"));
+
+  results.scores.push_back(score(run_of("B", 3), 0.8));
+  results.generation.pop_back();
+  const std::string page = report_page(results);
+  EXPECT_THAT(page, HasSubstr("The dataset has 7 of the recipe's 36 cases"));
+  EXPECT_THAT(page, HasSubstr("These results cover 3 of the dataset's 7 cases"));
+}
+
+TEST(Page, TheLeaderboardHasTheBestFirstAndEachSceneOnce) {
+  Results results = small_results();
+  results.is_papers = false;
+  results.experiment.methods = {"paper", "axis", "none"};
+  const auto seen = [](RunKey run, const char* method, const char* scanner) {
+    run.method = method;
+    run.scanner = scanner;
+    return run;
+  };
+  results.scores.clear();
+  for (const auto& [scanner, lost] : {std::pair("left", 0.0), std::pair("right", 0.2)}) {
+    for (const auto& [set, number, recall] :
+         {std::tuple("A", 1, 0.9), std::tuple("A", 2, 0.7), std::tuple("B", 1, 0.8)}) {
+      results.scores.push_back(score(seen(run_of(set, number), "paper", scanner), recall - lost));
+      results.scores.push_back(score(seen(run_of(set, number), "axis", scanner), recall - lost + 0.05));
+      results.scores.push_back({.run = seen(run_of(set, number), "none", scanner), .failure = "no tubes"});
+    }
+  }
+  results.times = {{seen(run_of("A", 1), "axis", "left"), 0.5}, {seen(run_of("A", 1), "axis", "right"), 1}};
+  const std::string page = report_page(results);
+  // Means of scenes 0.85, 0.65 and 0.75: their standard deviation is 0.1; Student's t is 4.303.
+  const std::string best = row({"axis", "0.750 ± 0.248", "3", "6", "0", "0.750"});
+  const std::string next = row({"paper", "0.700 ± 0.248", "3", "6", "0", "–"});
+  EXPECT_THAT(page, HasSubstr(best));
+  EXPECT_LT(page.find(best), page.find(next));
+  EXPECT_LT(page.find(next), page.find(row({"none", "0.000 ± 0.000", "3", "6", "6", "–"})));
+  EXPECT_THAT(page, HasSubstr(row({"paper", "0.700 ± 1.271", "0.700"}))) << "by set";
+  EXPECT_THAT(page, HasSubstr(row({"paper", "0.800 ± 0.248", "0.600 ± 0.248"}))) << "by scanner";
+  EXPECT_THAT(page, Not(HasSubstr("By number of tubes"))) << "there is only one number";
+  EXPECT_THAT(page, HasSubstr("method “axis” has the highest mean micro-recall of 3 methods, 0.750."));
+}
+
+TEST(Page, RunsHaveTheirScannersAndTheNumbersDrawnForTheirCases) {
+  std::istringstream recipe(
+      "[[scanner]]\nname = \"left\"\nsigma = { min = 0, max = 1e-3 }\n"
+      "[[scanner]]\nname = \"right\"\nsigma = { min = 0, max = 1e-3 }\n"
+      "[[set]]\nname = \"A\"\ntubes = [10]\n"
+      "tube = { radius = 0.0125, mass = 0.5, length = { min = 0.4, max = 0.5 }, bend_max_deg = 30 }\n");
+  Results results = small_results();
+  results.experiment.recipe = read_recipe(recipe, "recipe");
+  for (RunScore& run : results.scores) {
+    run.run.scanner = "right";
+    run.drawn = {{"scanner[0].sigma", 0.25}, {"scanner[1].sigma", 0.5}, {"set[0].tube.length", 0.75}};
+  }
+  const std::string page = report_page(results);
+  EXPECT_THAT(page, HasSubstr(R"("scanner":["right","right","right"])"));
+  EXPECT_THAT(page, HasSubstr(R"("drawn":{"scanner.sigma":[0.5,0.5,0.5],"tube.length":[0.75,0.75,0.75]})"));
 }
 
 TEST(Page, SaysThatOnlySomeCasesOfTheDatasetWereModelled) {

@@ -20,6 +20,7 @@ struct SyntheticResults {
   std::vector<int> tubes = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 20};
   int cases = 20;  ///< of each number of tubes
   std::vector<std::string> methods = {"paper"};
+  std::vector<std::string> scanners = {""};
   std::vector<double> ratios = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
 };
 
@@ -66,7 +67,8 @@ private:
 
   void add_case(const std::string& method, const std::string& set, int tubes, int number) {
     const double luck = normal();
-    for (const double ratio : settings_.ratios) add_run(method, set, tubes, number, ratio, luck);
+    for (const std::string& scanner : settings_.scanners)
+      for (const double ratio : settings_.ratios) add_run(method, set, tubes, number, scanner, ratio, luck);
     if (method != settings_.methods.front()) return;
     generation_ += fmt::format(
         R"({{{},"generate":{:.4f},"settle":{:.4f},"scan":0.21,"write":0.09,"peak_memory":92.5}})"
@@ -74,23 +76,26 @@ private:
         id(set, tubes, number), 0.002 * tubes, (0.25 + 0.12 * tubes) * (1 + 0.2 * std::abs(normal())));
   }
 
-  void add_run(const std::string& method, const std::string& set, int tubes, int number, double ratio,
-               double luck) {
+  void add_run(const std::string& method, const std::string& set, int tubes, int number,
+               const std::string& scanner, double ratio, double luck) {
     const double lost = (set == "A" ? 0.03 : 0.07) + 0.006 * tubes + 0.01 / ratio + 0.02 * luck +
                         0.01 * normal() - (method == "paper" ? 0 : 0.03);
     const double recall = std::clamp(1 - lost, 0.2, 1.0);
     const int true_joins = tubes * (tubes - 1) / 3;
     const int joins_found = static_cast<int>(true_joins * recall * 0.9);
+    const std::string seen = scanner.empty() ? "" : fmt::format(R"(,"scanner":"{}")", scanner);
     const std::string run =
-        fmt::format(R"({},"method":"{}","ratio":{})", id(set, tubes, number), method, ratio);
+        fmt::format(R"({}{},"method":"{}","ratio":{})", id(set, tubes, number), seen, method, ratio);
+    const std::string drawn = fmt::format(R"("drawn":{{"bin.friction":{}}})", 0.5 + 0.125 * (number % 4));
     results_ += fmt::format(
-        R"({{{},"points":{},"micro_recall":{:.6f},"mean_iou":{:.6f},"precision":{:.6f},"recall":{:.6f},"f1":{:.6f},)"
+        R"({{{},{},"points":{},"micro_recall":{:.6f},"mean_iou":{:.6f},"precision":{:.6f},"recall":{:.6f},"f1":{:.6f},)"
         R"("panoptic_quality":{:.6f},"adjusted_rand_index":{:.6f},"correct":{},"over_segmented":0,)"
         R"("under_segmented":0,"missed":0,"noise":0,"tubes_found":{},"centre_line_error":{:.6f},)"
         R"("centre_line_coverage":{:.6f},"true_joins":{},"joins_found":{},"joins_made":{},"counts":{{"filter":1}}}})"
         "\n",
-        run, 9000 * tubes, recall, recall * 0.95, recall, recall, recall * 0.98, recall * 0.9, recall * 0.93,
-        tubes, tubes, 0.002 + 0.01 * (1 - recall), recall, true_joins, joins_found, joins_found + tubes / 4);
+        run, drawn, 9000 * tubes, recall, recall * 0.95, recall, recall, recall * 0.98, recall * 0.9,
+        recall * 0.93, tubes, tubes, 0.002 + 0.01 * (1 - recall), recall, true_joins, joins_found,
+        joins_found + tubes / 4);
     times_ += fmt::format(R"({{{},"seconds":{:.6f},"steps":{{"filter":0.001}}}})"
                           "\n",
                           run, (0.02 + 0.12 * ratio * tubes) * (1 + 0.1 * std::abs(normal())));

@@ -37,9 +37,9 @@ TEST(WriteScenes, ShowsTheWorstOfEachMethodAndWhereTheyDifferMost) {
                .failure = RunFailure{.of = FailureOf::method, .reason = "no points"}});
   const auto scenes = scenes_to_show(summary, built_in_entries(), 1);
   ASSERT_EQ(scenes.size(), 2U);
-  EXPECT_EQ(scenes[0].id.number, 2);
+  EXPECT_EQ(scenes[0].seen.scene.number, 2);
   EXPECT_THAT(scenes[0].reasons, ElementsAre("worst of paper", "worst of axis"));
-  EXPECT_EQ(scenes[1].id.number, 4);
+  EXPECT_EQ(scenes[1].seen.scene.number, 4);
   EXPECT_THAT(scenes[1].reasons, ElementsAre("methods differ"));
   EXPECT_TRUE(scenes_to_show(summary, built_in_entries(), 0).empty());
 }
@@ -68,7 +68,7 @@ TEST(WriteScenes, EachSceneHasTheTruthAndWhatEveryMethodFound) {
       const ResultsSummary summary = summary_of(results.path(), settings.ratios);
       const auto& scores = summary.scores(name_of(methods()[i]));
       const auto score = std::ranges::find_if(scores, [&](const ScoredCase& scored) {
-        return scene.at("name").get<std::string>().starts_with(name_of(scored.scene) + ", ratio 0.4 (");
+        return scene.at("name").get<std::string>().starts_with(name_of(scored.seen) + ", ratio 0.4 (");
       });
       ASSERT_NE(score, scores.end());
       EXPECT_NEAR(found.at("score").at("micro_recall"), score->micro_recall, 1e-12) << "as in results.jsonl";

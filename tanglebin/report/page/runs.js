@@ -21,11 +21,11 @@
     joins_wrong: ["joins wrong", count],
     seconds: ["seconds", value => value.toFixed(3)],
   };
-  const KEYS = { set: ["set", String], tubes: ["tubes", count], case: ["case", count], method: ["method", String],
-                 ratio: ["ratio", String] };
-  const COLUMNS = { ...KEYS, ...MEASURES };
-  const VARIABLES = ["tubes", "ratio", "case", ...Object.keys(MEASURES)];
-  const FILTERS = ["set", "method", "tubes", "ratio"];
+  const KEYS = { set: ["set", String], tubes: ["tubes", count], case: ["case", count], scanner: ["scanner", String],
+                 method: ["method", String], ratio: ["ratio", String] };
+  const NAMES = ["set", "scanner"];  // words; a plot has them side by side
+  const FILTERS = ["set", "scanner", "method", "tubes", "ratio"];
+  const fewDigits = value => String(Number(value.toPrecision(4)));
 
   function element(name, properties = {}, ...children) {
     const result = Object.assign(document.createElement(name), properties);
@@ -33,8 +33,6 @@
     return result;
   }
 
-  const titled = name => COLUMNS[name][0];
-  const shown = (name, value) => value === null ? "–" : COLUMNS[name][1](value);
   const byValue = (a, b) => a < b ? -1 : a > b ? 1 : 0;
   const distinct = values => [...new Set(values)].sort(byValue);
   const mean = values => values.reduce((sum, value) => sum + value, 0) / values.length;
@@ -47,7 +45,13 @@
 
   class Runs {
     constructor(root) {
-      this.columns = JSON.parse(root.querySelector("script").textContent);
+      const { drawn, ...columns } = JSON.parse(root.querySelector("script").textContent);
+      this.columns = { ...columns, ...drawn };
+      this.kinds = { ...KEYS, ...MEASURES };
+      for (const name of Object.keys(drawn)) this.kinds[name] = [name, fewDigits];
+      if (columns.scanner.every(name => name === "")) delete this.kinds.scanner;
+      this.variables = ["tubes", "ratio", ...NAMES.filter(name => name in this.kinds), ...Object.keys(drawn), "case",
+                        ...Object.keys(MEASURES)];
       this.columns.centre_line_error = this.columns.centre_line_error.map(metres => metres === null ? null : 1000 * metres);
       this.size = this.columns.set.length;
       this.methods = distinct(this.columns.method);
@@ -60,11 +64,15 @@
       matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.plot());
     }
 
+    titled(name) { return this.kinds[name][0]; }
+
+    shown(name, value) { return value === null ? "–" : this.kinds[name][1](value); }
+
     addElements(root) {
-      const listed = names => names.map(name => [name, titled(name)]);
+      const listed = names => names.map(name => [name, this.titled(name)]);
       this.measure = choice("Plot", listed(Object.keys(MEASURES)), "micro_recall");
-      this.variable = choice("against", listed(VARIABLES), "tubes");
-      this.filters = FILTERS.map(name => ({ name, ...choice(titled(name),
+      this.variable = choice("against", listed(this.variables), "tubes");
+      this.filters = FILTERS.filter(name => name in this.kinds).map(name => ({ name, ...choice(this.titled(name),
         [["", "all"], ...distinct(this.columns[name]).map(value => [value, String(value)])], "") }));
       for (const { select } of [this.measure, this.variable]) select.addEventListener("change", () => this.plot());
       for (const { select } of this.filters) select.addEventListener("change", () => this.choose());
@@ -119,7 +127,7 @@
       this.page = Math.min(Math.max(page, 0), last);
       const first = this.page * ROWS_ON_A_PAGE;
       const rows = this.runs.slice(first, first + ROWS_ON_A_PAGE);
-      this.head.replaceChildren(element("td"), ...Object.keys(COLUMNS).map(name => this.heading(name)));
+      this.head.replaceChildren(element("td"), ...Object.keys(this.kinds).map(name => this.heading(name)));
       this.body.replaceChildren(...rows.map(i => this.row(i)));
       this.place.value = rows.length === 0 ? "no runs" :
         `runs ${first + 1} to ${first + rows.length} of ${this.runs.length.toLocaleString("en")}`;
@@ -128,7 +136,7 @@
     }
 
     heading(name) {
-      const button = element("button", { type: "button", textContent: titled(name) });
+      const button = element("button", { type: "button", textContent: this.titled(name) });
       button.addEventListener("click", () => {
         this.sortBy(name);
         this.head.querySelector("[aria-sort] button").focus();
@@ -139,7 +147,7 @@
     }
 
     row(i) {
-      const cells = Object.keys(COLUMNS).map(name => element("td", { textContent: shown(name, this.columns[name][i]) }));
+      const cells = Object.keys(this.kinds).map(name => element("td", { textContent: this.shown(name, this.columns[name][i]) }));
       const note = element("td", { textContent: this.columns.failed[i] ? "failed" : "" });
       const scene = this.sceneOf(i);
       if (scene) {
@@ -151,7 +159,10 @@
       return element("tr", {}, note, ...cells);
     }
 
-    nameOf(i) { return `${this.columns.set[i]}${this.columns.tubes[i]}/${this.columns.case[i]}`; }
+    nameOf(i) {
+      const scanner = this.columns.scanner[i];
+      return `${this.columns.set[i]}${this.columns.tubes[i]}/${this.columns.case[i]}${scanner && `, ${scanner}`}`;
+    }
 
     // Shows the scene of a run with a method's labels; null if it is not there in 3D.
     sceneOf(i) {
@@ -181,6 +192,13 @@
       this.plotHistogram(runs, measure);
     }
 
+    // Where a variable is on an axis: of words, one beside the other.
+    places(variable) {
+      if (!NAMES.includes(variable)) return value => value;
+      const names = distinct(this.columns[variable]);
+      return name => names.indexOf(name);
+    }
+
     // Where the variable has few values, also the means at each.
     plotScatter(runs, measure, variable) {
       const mostMeans = 40;
@@ -190,34 +208,43 @@
         pointStyle: METHOD_MARKS[m % METHOD_MARKS.length],
       }));
       this.scatter.setAttribute("aria-label",
-        `${titled(measure)} of ${runs.length} runs against ${titled(variable)}. The table below has the numbers.`);
+        `${this.titled(measure)} of ${runs.length} runs against ${this.titled(variable)}. The table below has the numbers.`);
       this.plots.scatter.data.datasets = [
         ...hasMeans ? methods.map(method => this.meansOf(method, measure, variable)) : [],
         ...methods.map(method => this.pointsOf(method, measure, variable)),
       ];
-      this.plots.scatter.options.scales = this.axes(titled(variable), titled(measure));
+      this.plots.scatter.options.scales = this.axes(this.titled(variable), this.titled(measure));
+      if (NAMES.includes(variable)) this.nameTicks(this.plots.scatter.options.scales.x, distinct(this.columns[variable]));
       this.update(this.plots.scatter);
     }
 
+    nameTicks(axis, names) {
+      Object.assign(axis, { min: -0.5, max: names.length - 0.5 });
+      Object.assign(axis.ticks, { stepSize: 1, autoSkip: false, callback: place => names[place] ?? "" });
+      axis.afterBuildTicks = scale => { scale.ticks = names.map((_, value) => ({ value })); };
+    }
+
     meansOf({ name, runs, color, pointStyle }, measure, variable) {
+      const placeOf = this.places(variable);
       const valuesAt = new Map();
       for (const i of runs) {
         const place = this.columns[variable][i];
         if (!valuesAt.has(place)) valuesAt.set(place, []);
         valuesAt.get(place).push(this.columns[measure][i]);
       }
-      const data = [...valuesAt].sort(([a], [b]) => a - b).map(([x, values]) => ({
-        x, y: mean(values),
-        text: `${name}, ${titled(variable)} ${shown(variable, x)}: mean ${shown(measure, mean(values))} of ${values.length} runs`,
+      const data = [...valuesAt].sort(([a], [b]) => byValue(a, b)).map(([value, values]) => ({
+        x: placeOf(value), y: mean(values),
+        text: `${name}, ${this.titled(variable)} ${this.shown(variable, value)}: mean ${this.shown(measure, mean(values))} of ${values.length} runs`,
       }));
       return { label: `${name}, mean`, data, pointStyle, showLine: true, backgroundColor: color, borderColor: color,
                pointRadius: 4, borderWidth: 2 };
     }
 
     pointsOf({ name, runs, color, pointStyle }, measure, variable) {
+      const placeOf = this.places(variable);
       const data = runs.map(i => ({
-        x: this.columns[variable][i], y: this.columns[measure][i],
-        text: `${this.nameOf(i)}, ${name}, ratio ${this.columns.ratio[i]}: ${shown(measure, this.columns[measure][i])}`,
+        x: placeOf(this.columns[variable][i]), y: this.columns[measure][i],
+        text: `${this.nameOf(i)}, ${name}, ratio ${this.columns.ratio[i]}: ${this.shown(measure, this.columns[measure][i])}`,
       }));
       const faint = `${color}55`;
       return { label: name, data, pointStyle, backgroundColor: faint, borderColor: faint, pointRadius: 2.5 };
@@ -228,7 +255,7 @@
       const low = values.reduce((a, b) => Math.min(a, b), Infinity);
       const high = values.reduce((a, b) => Math.max(a, b), -Infinity);
       const step = (high - low) / HISTOGRAM_BARS || 1;
-      const bars = Array.from({ length: HISTOGRAM_BARS }, (_, i) => `${shown(measure, low + i * step)}`);
+      const bars = Array.from({ length: HISTOGRAM_BARS }, (_, i) => `${this.shown(measure, low + i * step)}`);
       this.plots.histogram.data = {
         labels: runs.length === 0 ? [] : bars,
         datasets: this.methods.map((method, m) => {
@@ -240,8 +267,8 @@
           return { label: method, data: counts, backgroundColor: METHOD_COLORS[m % METHOD_COLORS.length], categoryPercentage: 0.95, barPercentage: 1 };
         }),
       };
-      this.histogram.setAttribute("aria-label", `Histogram of ${titled(measure)} of ${runs.length} runs.`);
-      this.plots.histogram.options.scales = this.axes(`${titled(measure)}, from`, "runs");
+      this.histogram.setAttribute("aria-label", `Histogram of ${this.titled(measure)} of ${runs.length} runs.`);
+      this.plots.histogram.options.scales = this.axes(`${this.titled(measure)}, from`, "runs");
       this.update(this.plots.histogram);
     }
 
