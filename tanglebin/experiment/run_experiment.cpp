@@ -138,9 +138,9 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
   };
   const auto give_up = [&](const TaskFailure& failure) {
     const CaseId& id = missing[failure.task];
-    const CaseRecord record = dataset.catalogue.record(id);
+    const CaseRecord of_case = dataset.catalogue.record(id);
     journal.append({journal_line_of(dataset, id, [&](const SeenCase& seen) {
-      return failed_runs(record, settings, seen, {FailureOf::worker, failure.reason});
+      return failed_runs(of_case, settings, seen, {FailureOf::worker, failure.reason});
     })});
     ++summary.progress.failed;
     summary.failed.push_back({id, failure.reason});

@@ -44,7 +44,8 @@ struct Located {
 ///
 /// Deterministic. Throws InputError as validate(Support) does, and naming `cloud` or `support` where the
 /// support is not found, or not surely: too few points in the image, a wall or the rim is not where the sizes
-/// have it, two poses fit equally well, the position is not determined by what was seen.
+/// have it, two poses fit equally well, the position is not determined by what was seen, the best plane cuts
+/// through the tubes.
 Located locate(const PointCloud& cloud, const Support& support, const Camera& camera);
 
 }  // namespace tanglebin

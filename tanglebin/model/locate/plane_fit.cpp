@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/median.hpp"
 
 namespace tanglebin {
@@ -147,8 +147,8 @@ View only_near(View view, const Frame& frame, double gate) {
 }
 
 // Whether a patch is parallel to the plane, as far as its noise lets its direction be known.
-bool is_parallel(const Patch& patch, const Frame& frame) {
-  const double least = std::tan(10 * std::numbers::pi / 180);
+bool is_parallel(const FlatPatch& patch, const Frame& frame) {
+  const double least = std::tan(10 * degree);
   const double extent =
       std::sqrt(patch.area / 12);  // m, standard deviation of a square's points along a side
   const double slope = frame.normal.cross(patch.normal).norm() / std::abs(frame.normal.dot(patch.normal));
@@ -159,7 +159,7 @@ bool is_parallel(const Patch& patch, const Frame& frame) {
 double share_parallel(const View& view, const Frame& frame, double gate) {
   double parallel = 0;
   double all = 0;
-  for (const Patch& patch : patches_of(only_near(view, frame, gate))) {
+  for (const FlatPatch& patch : patches_of(only_near(view, frame, gate))) {
     all += patch.area;
     if (is_parallel(patch, frame)) parallel += patch.area;
   }
