@@ -82,7 +82,7 @@ std::optional<BuiltIn> built_in(const std::string& text, ModelSettings model) {
   if (colon == std::string::npos || method == known.end()) return std::nullopt;
   const std::string profile = text.substr(colon + 1);
   read_profile(profile, model);
-  return BuiltIn{*method, profile, std::move(model)};
+  return BuiltIn{*method, profile, model};
 }
 
 Entry entry_named(const std::string& text, const ModelSettings& model, const ProcessLimits& limits) {

@@ -59,6 +59,7 @@ std::string recall_text(const Summary& recall) {
 
 std::vector<HtmlColumn> columns_of(const std::vector<std::string>& headings) {
   std::vector<HtmlColumn> columns;
+  columns.reserve(headings.size());
   for (const std::string& heading : headings) columns.push_back({.heading = heading, .group = ""});
   return columns;
 }
