@@ -103,8 +103,9 @@ TEST(LocateReal, FindsTheBinOfARealFrame) {
   const test::TemporaryDirectory directory;
   const std::string cloud = (directory / "raw.ply").string();
   const std::string camera = (directory / "raw.json").string();
-  const std::string convert = (real / "to_cloud.py").string() + " " + (real / "raw-frame.png").string() +
-                              " " + cloud + " " + camera + " > /dev/null 2>&1";
+  const std::string convert = "/usr/bin/python3 " + (real / "to_cloud.py").string() + " " +
+                              (real / "raw-frame.png").string() + " " + cloud + " " + camera +
+                              " > /dev/null 2>&1";
   if (std::system(convert.c_str()) != 0) GTEST_SKIP() << "to_cloud.py needs python3-numpy and python3-pil";
   test::write_bytes(directory / "scene.toml",
                     "[camera]\nfile = \"raw.json\"\nframe = \"camera\"\nunit = \"m\"\n\n[support]\nshape = "
