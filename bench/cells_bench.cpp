@@ -14,11 +14,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "bench/paper_sets.hpp"
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/model/axis/radius.hpp"
@@ -33,8 +33,6 @@
 
 namespace tanglebin {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// A robot cell, and the tubes in it.
 struct Cell {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "bench/paper_sets.hpp"
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/counter_random.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/picked.hpp"
@@ -34,8 +35,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// What the tubes lie in, or on; `table`: one as large as the image; `unseen`: one of which there is no
 /// point.

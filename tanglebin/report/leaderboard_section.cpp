@@ -52,11 +52,6 @@ std::vector<Standing> standings_of(const Results& results, const std::vector<Run
   return standings;
 }
 
-/// "0.931 ± 0.012"
-std::string recall_text(const Summary& recall) {
-  return share_text(recall.mean) + (recall.interval ? fmt::format(" ± {:.3f}", *recall.interval) : "");
-}
-
 std::vector<HtmlColumn> columns_of(const std::vector<std::string>& headings) {
   std::vector<HtmlColumn> columns;
   columns.reserve(headings.size());
@@ -70,9 +65,9 @@ HtmlTable overall(const std::vector<Standing>& standings, double ratio) {
       .columns = columns_of({"Method", "micro-recall", "scenes", "runs", "failed", "seconds"}),
       .rows = {}};
   for (const Standing& standing : standings) {
-    table.rows.push_back({standing.method, recall_text(standing.recall),
-                          std::to_string(standing.recall.count), std::to_string(standing.runs.size()),
-                          std::to_string(count_failed(standing.runs)), seconds_text(standing.seconds, 3)});
+    table.rows.push_back({standing.method, mean_text(standing.recall), std::to_string(standing.recall.count),
+                          std::to_string(standing.runs.size()), std::to_string(count_failed(standing.runs)),
+                          seconds_text(standing.seconds, 3)});
   }
   return table;
 }
@@ -90,7 +85,7 @@ std::string table_by(const std::vector<Standing>& standings, const std::vector<R
     std::vector<std::string> row = {standing.method};
     for (const auto& group : groups) {
       const auto runs = chosen(standing.runs, [&](const RunScore& run) { return group_of(run) == group; });
-      row.push_back(runs.empty() ? "–" : recall_text(recall_of(runs)));
+      row.push_back(runs.empty() ? "–" : mean_text(recall_of(runs)));
     }
     table.rows.push_back(row);
   }

@@ -83,9 +83,7 @@ std::string recalls_of(const std::vector<RunScore>& scores, const std::string& m
     if (group.method != method) continue;
     const auto runs = chosen(scores, [&](const RunScore& score) { return is_of(score, group); });
     const Summary recall = summarize(values(runs, [](const RunScore& score) { return score.micro_recall; }));
-    words.push_back(fmt::format("{:.3f}{} (set {})", recall.mean,
-                                recall.interval ? fmt::format(" ± {:.3f}", *recall.interval) : "",
-                                group.set));
+    words.push_back(fmt::format("{} (set {})", mean_text(recall), group.set));
   }
   return joined(words);
 }

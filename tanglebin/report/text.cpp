@@ -14,6 +14,10 @@ std::string share_text(std::optional<double> share) {
   return share ? fmt::format("{:.3f}", *share) : "–";
 }
 
+std::string mean_text(const Summary& summary) {
+  return share_text(summary.mean) + (summary.interval ? fmt::format(" ± {:.3f}", *summary.interval) : "");
+}
+
 std::string ratio_text(double ratio) {
   return fmt::format("{:.6g}", ratio);
 }

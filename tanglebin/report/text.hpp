@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "tanglebin/report/selection.hpp"
+#include "tanglebin/report/summary.hpp"
 
 // Formats values for the report. Returns text that still has to be escaped, unless the name says `html`.
 namespace tanglebin {
@@ -15,6 +16,9 @@ std::string seconds_text(std::optional<double> seconds, int decimals = 2);
 
 /// "0.913"; "–" for none.
 std::string share_text(std::optional<double> share);
+
+/// "0.931 ± 0.012": a mean and half its confidence interval, if it has one.
+std::string mean_text(const Summary& summary);
 
 /// A ratio with as few digits as possible: "0.3".
 std::string ratio_text(double ratio);
