@@ -37,14 +37,17 @@ std::vector<Output> outputs(const LearnArguments& arguments) {
   return {{"--out", *arguments.out, {".toml"}}};
 }
 
-// The examples from every case of the datasets.
+// The examples from all scanners' clouds of every case of the datasets.
 template <typename Example>
 std::vector<Example> examples_of(const std::vector<std::string>& datasets,
-                                 std::vector<Example> (*of_case)(const Dataset&, const CaseId&)) {
+                                 std::vector<Example> (*of_case)(const Dataset&, const SeenCase&)) {
   std::vector<Example> all;
   for (const std::string& directory : datasets) {
     const Dataset dataset = read_dataset(directory);
-    for (const CaseId& id : cases(dataset)) std::ranges::copy(of_case(dataset, id), std::back_inserter(all));
+    for (const CaseId& id : cases(dataset)) {
+      for (const Scanner& scanner : scanners(dataset.recipe))
+        std::ranges::copy(of_case(dataset, {id, scanner.name}), std::back_inserter(all));
+    }
   }
   return all;
 }

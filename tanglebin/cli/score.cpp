@@ -110,6 +110,7 @@ void print_text(const Score& score, const std::optional<TubesScore>& tubes_score
   const Instances& instances = score.instances;
   print_out("micro-recall         {:.3f}  {} of {} points, {} null\n", score.micro_recall,
             score.correct_points, score.points, score.null_points);
+  if (score.unmixed_recall) print_out("without mixed points {:.3f}\n", *score.unmixed_recall);
   print_out("mean IoU             {:.3f}\n", score.mean_iou);
   print_out("F1 at IoU 0.5        {:.3f}  precision {:.3f}, recall {:.3f}\n", f1, precision, recall);
   print_out("panoptic quality     {:.3f}\n", panoptic_quality);

@@ -37,9 +37,9 @@ Eigen::Map<const ConfidenceVector> vector_of(const ConfidenceFeatures& features)
 
 }  // namespace
 
-std::vector<TubeExample> tube_examples(const Dataset& dataset, const CaseId& id) {
-  const CaseData data = read_case(dataset, id);
-  const KnownScene known = known_scene(recipe_of(dataset, id), id);
+std::vector<TubeExample> tube_examples(const Dataset& dataset, const SeenCase& seen) {
+  const CaseData data = read_seen_case(dataset, seen);
+  const KnownScene known = known_scene(recipe_seen(dataset, seen), seen.scene);
   const Model model = with_file(data.cloud_file, [&] { return model_tubes(data.cloud, known); });
   const std::vector<std::int32_t> truth = truth_labels(data.cloud, data.cloud_file);
   PointsOn all;

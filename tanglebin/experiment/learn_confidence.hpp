@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/model/confidence.hpp"
 
 namespace tanglebin {
@@ -13,9 +13,9 @@ struct TubeExample {
   bool is_right;
 };
 
-/// The tubes that the axis method finds in the cloud of a case in the dataset. Throws InputError as
-/// read_case() does.
-std::vector<TubeExample> tube_examples(const Dataset& dataset, const CaseId& id);
+/// The tubes that the axis method finds in a scanner's cloud of a case in the dataset. Throws InputError as
+/// read_seen_case() does.
+std::vector<TubeExample> tube_examples(const Dataset& dataset, const SeenCase& seen);
 
 /// The weights with which the examples are likeliest: logistic regression, solved by Newton's method with a
 /// ridge of 0.1.

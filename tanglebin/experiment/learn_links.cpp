@@ -157,14 +157,42 @@ bool is_small(const LinkVector& step) {
   return step.cwiseAbs().maxCoeff() < small;
 }
 
+// The likeliest weights, of which those are free that are marked with 1; the others are 0.
+LinkVector likeliest(const std::vector<EndExample>& ends, const LinkVector& free) {
+  constexpr int steps_max = 1000;
+  const auto likelihood_of = [&](const LinkVector& weights) {
+    Likelihood likelihood(ends, weights);
+    likelihood.slope.array() *= free.array();
+    likelihood.curvature.array() *= (free * free.transpose()).array();
+    likelihood.curvature.diagonal() += LinkVector::Ones() - free;
+    return likelihood;
+  };
+  LinkVector weights = LinkVector::Zero();
+  Likelihood likelihood = likelihood_of(weights);
+  for (int i = 0; i < steps_max; ++i) {
+    // Newton's step, shortened so that it does not overshoot.
+    LinkVector step = likelihood.curvature.ldlt().solve(likelihood.slope);
+    Likelihood next = likelihood_of(weights + step);
+    while (next.value < likelihood.value && !is_small(step)) {
+      step /= 2;
+      next = likelihood_of(weights + step);
+    }
+    weights += step;
+    likelihood = next;
+    if (is_small(step)) break;
+  }
+  return weights;
+}
+
 }  // namespace
 
-std::vector<EndExample> end_examples(const Dataset& dataset, const CaseId& id) {
-  const CaseData data = read_case(dataset, id);
+std::vector<EndExample> end_examples(const Dataset& dataset, const SeenCase& seen) {
+  const CaseData data = read_seen_case(dataset, seen);
   AxisSettings settings;
   constexpr double any = 1e9;
   settings.link.chain_prior = settings.link.tree_prior = settings.link.junction_prior = any;
-  const AxisModel found = model_by_axes(data.cloud, known_scene(recipe_of(dataset, id), id), 1, 0, settings);
+  const KnownScene known = known_scene(recipe_seen(dataset, seen), seen.scene);
+  const AxisModel found = model_by_axes(data.cloud, known, 1, 0, settings);
   std::vector<EndExample> examples;
   for (const AxisSteps& kind : found.kinds) {
     const TrueLinks truth(data, found.model.filtered, kind.fragments);
@@ -184,21 +212,11 @@ std::vector<EndExample> end_examples(const Dataset& dataset, const CaseId& id) {
 }
 
 LinkWeights learn_weights(const std::vector<EndExample>& ends) {
-  constexpr int steps_max = 1000;
-  LinkVector weights = LinkVector::Zero();
-  Likelihood likelihood(ends, weights);
-  for (int i = 0; i < steps_max; ++i) {
-    // Newton's step, shortened so that it does not overshoot.
-    LinkVector step = likelihood.curvature.ldlt().solve(likelihood.slope);
-    Likelihood next(ends, weights + step);
-    while (next.value < likelihood.value && !is_small(step)) {
-      step /= 2;
-      next = Likelihood(ends, weights + step);
-    }
-    weights += step;
-    likelihood = next;
-    if (is_small(step)) break;
-  }
+  constexpr Eigen::Index gap = 2;
+  LinkVector free = LinkVector::Ones();
+  LinkVector weights = likeliest(ends, free);
+  for (const LinkKind kind : link_kinds) free[first_of(kind) + gap] = of_kind(weights, kind)[gap] > 0 ? 0 : 1;
+  if (free != LinkVector::Ones()) weights = likeliest(ends, free);
   const auto learned = [&](LinkKind kind) {
     LinkFeatures result;
     std::ranges::copy(of_kind(weights, kind), result.begin());

@@ -88,7 +88,9 @@ ModelScore score_model(const CaseData& data, const Model& model, bool has_tubes)
   if (std::ranges::none_of(truth, [](std::int32_t label) { return label > bin_label; })) {
     throw InputError({data.cloud_file, 0, ""}, "no point on a tube is left after filtering");
   }
-  ModelScore found{score(truth, picked(model.labels, model.filtered)), std::nullopt};
+  const std::vector<std::uint8_t> mixed =
+      data.cloud.mixed.empty() ? std::vector<std::uint8_t>{} : picked(data.cloud.mixed, model.filtered);
+  ModelScore found{score(truth, picked(model.labels, model.filtered), mixed), std::nullopt};
   if (has_tubes) found.tubes = score_tubes(data.tubes, model.tubes);
   return found;
 }

@@ -52,6 +52,7 @@ void for_each_parameter(Settings& settings, Visit visit) {
   visit("axis.fragment.weak_max", settings.axis.fragment.weak_max);
   visit("axis.fragment.parallel_max", settings.axis.fragment.parallel_max);
   visit("axis.fragment.points_min", settings.axis.fragment.points_min);
+  visit("axis.fragment.speck_max", settings.axis.fragment.speck_max);
   visit("axis.link.angle_max", settings.axis.link.angle_max);
   visit("axis.link.length_tolerance", settings.axis.link.length_tolerance);
   visit("axis.link.ends_tolerance", settings.axis.link.ends_tolerance);
@@ -62,6 +63,8 @@ void for_each_parameter(Settings& settings, Visit visit) {
   visit("axis.link.junction_prior", settings.axis.link.junction_prior);
   visit("axis.link.misfit_unit", settings.axis.link.misfit_unit);
   visit("axis.link.missing_unit", settings.axis.link.missing_unit);
+  visit("axis.link.unseen_unit", settings.axis.link.unseen_unit);
+  visit("axis.link.hidden_stretch", settings.axis.link.hidden_stretch);
   for (const LinkKind kind : link_kinds) {
     for (std::size_t i = 0; i < link_features; ++i)
       visit(name_of_weight(kind, i).c_str(), settings.axis.link.weights.of(kind)[i]);

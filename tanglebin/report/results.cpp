@@ -129,6 +129,7 @@ RunScore score_of(const JsonRecord& record) {
   score.f1 = share_of(record, "f1");
   score.panoptic_quality = share_of(record, "panoptic_quality");
   score.adjusted_rand_index = record.number("adjusted_rand_index", -1, 1);
+  if (record.has("unmixed_recall")) score.unmixed_recall = record.number_or_null("unmixed_recall", 0, 1);
   if (!record.has("tubes_found")) return score;  // a method that gives labels only
   score.centre_line_error = record.number_or_null("centre_line_error", 0, infinity);
   score.true_joins = record.whole_number("true_joins");

@@ -54,6 +54,7 @@ struct RunScore {
   double f1 = 0;
   double panoptic_quality = 0;
   double adjusted_rand_index = 0;
+  std::optional<double> unmixed_recall{};     ///< none if the cloud does not mark mixed points
   std::optional<double> centre_line_error{};  ///< m; none if no tube was found
   std::size_t true_joins = 0;
   std::size_t joins_found = 0;            ///< of the true ones

@@ -15,6 +15,10 @@
 namespace tanglebin {
 namespace {
 
+Json number_or_null(const std::optional<double>& number) {
+  return number ? Json(*number) : Json();
+}
+
 auto key_of(const RunKey& run) {
   return std::tuple(run.id.set, run.id.tubes, run.id.number, run.scanner, run.method, run.ratio);
 }
@@ -46,7 +50,7 @@ Json drawn_columns_of(const Results& results) {
   }
   Json json = Json::object();
   for (const auto& [name, column] : columns) {
-    for (const std::optional<double>& value : column) json[name].push_back(value ? Json(*value) : Json());
+    for (const std::optional<double>& value : column) json[name].push_back(number_or_null(value));
   }
   return json;
 }
@@ -69,7 +73,8 @@ Json columns_of(const Results& results) {
     columns["f1"].push_back(score.f1);
     columns["panoptic_quality"].push_back(score.panoptic_quality);
     columns["adjusted_rand_index"].push_back(score.adjusted_rand_index);
-    columns["centre_line_error"].push_back(score.centre_line_error ? Json(*score.centre_line_error) : Json());
+    columns["unmixed_recall"].push_back(number_or_null(score.unmixed_recall));
+    columns["centre_line_error"].push_back(number_or_null(score.centre_line_error));
     columns["joins_missed"].push_back(score.true_joins - score.joins_found);
     columns["joins_wrong"].push_back(score.joins_made - score.joins_found);
     const auto time = seconds.find(key_of(run));

@@ -29,14 +29,19 @@ struct Score {
   double mean_iou;  ///< over all tubes, found or not
   Detection detection;
   double adjusted_rand_index;
+  /// Micro-recall without the mixed points, which lie between surfaces; none if they are not marked, or all
+  /// are mixed.
+  std::optional<double> unmixed_recall;
   Instances instances;
   std::vector<TubeScore> tubes;  ///< ascending by label
   Confusion confusion;
 };
 
 /// Scores a label for each point. In the ground truth, labels from 1 are tubes; all other points are ignored.
-/// In the prediction, 0 and null mean no tube; otherwise the label values do not matter. Throws
-/// std::invalid_argument if the arrays differ in length, or if the ground truth has no point on a tube.
-Score score(const std::vector<std::int32_t>& truth, const std::vector<std::int32_t>& predicted);
+/// In the prediction, 0 and null mean no tube; otherwise the label values do not matter. `mixed` marks mixed
+/// points (PointCloud::mixed), if it is not empty. Throws std::invalid_argument if the arrays differ in
+/// length, or if the ground truth has no point on a tube.
+Score score(const std::vector<std::int32_t>& truth, const std::vector<std::int32_t>& predicted,
+            const std::vector<std::uint8_t>& mixed = {});
 
 }  // namespace tanglebin

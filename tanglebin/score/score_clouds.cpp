@@ -144,7 +144,7 @@ Score score_clouds(const PointCloud& truth, const std::string& truth_file, const
                    const std::string& labelled_file) {
   const auto truth_of_points = truth_labels(truth, truth_file);
   const auto labels = predicted_labels(labelled, labelled_file);
-  return score(truth_of_points, match_points(truth, labelled, labels, labelled_file));
+  return score(truth_of_points, match_points(truth, labelled, labels, labelled_file), truth.mixed);
 }
 
 bool repeats_truth(const PointCloud& truth, const PointCloud& labelled, const std::string& file) {

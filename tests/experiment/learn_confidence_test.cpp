@@ -32,7 +32,7 @@ TEST(LearnConfidence, StaysFiniteIfAllTubesAreRight) {
 
 TEST(LearnConfidence, KnowsWhichTubesOfACaseAreWhole) {
   const test::SmallDataset dataset;
-  const std::vector<TubeExample> examples = tube_examples(dataset.read(), {"A", 1, 1});
+  const std::vector<TubeExample> examples = tube_examples(dataset.read(), {{"A", 1, 1}, ""});
   ASSERT_EQ(examples.size(), 1U);
   EXPECT_TRUE(examples[0].is_right);
 }

@@ -42,7 +42,7 @@ TEST(EndExamples, AreTrueWhereATubeGoesOnAndFalseWhereItDoesNot) {
   const Dataset dataset = small.read();
   std::vector<LinkExample> examples;
   for (const CaseId& id : cases(dataset)) {
-    for (const EndExample& end : end_examples(dataset, id))
+    for (const EndExample& end : end_examples(dataset, {id, ""}))
       examples.insert(examples.end(), end.begin(), end.end());
   }
   const auto gap = [](const LinkExample& example) { return example.features[2]; };

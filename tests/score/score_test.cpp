@@ -46,6 +46,18 @@ TEST(Score, NullIsNeverAssigned) {
   EXPECT_EQ(mostly_null.null_points, 99);
 }
 
+TEST(Score, WithoutMixedPointsIsThatOfTheOthers) {
+  const std::vector<std::int32_t> truth = {1, 1, 1, 1, 2, 2, 0};
+  const std::vector<std::int32_t> predicted = {7, 7, 0, 9, 9, 9, 9};
+  EXPECT_EQ(score(truth, predicted).unmixed_recall, std::nullopt);
+  const Score marked = score(truth, predicted, {0, 0, 1, 1, 0, 1, 0});
+  EXPECT_DOUBLE_EQ(marked.micro_recall, 4.0 / 6.0);
+  EXPECT_EQ(marked.unmixed_recall, 1.0);
+  EXPECT_EQ(score(truth, predicted, {1, 0, 0, 1, 1, 1, 1}).unmixed_recall, 0.5);
+  EXPECT_EQ(score(truth, predicted, {1, 1, 1, 1, 1, 1, 0}).unmixed_recall, std::nullopt);
+  EXPECT_THROW(score(truth, predicted, {1}), std::invalid_argument);
+}
+
 TEST(Score, OfNoLabelsIsZero) {
   const Score nothing = score_of(Counts{{10}, {20}});
   EXPECT_EQ(nothing.micro_recall, 0.0);

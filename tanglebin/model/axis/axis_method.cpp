@@ -7,6 +7,7 @@
 
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/geometry/labels.hpp"
+#include "tanglebin/model/axis/beyond_ends.hpp"
 #include "tanglebin/model/axis/choose_links.hpp"
 #include "tanglebin/model/axis/join_odds.hpp"
 #include "tanglebin/model/axis/kinds.hpp"
@@ -141,6 +142,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   const RangeImage seen(points_seen(cloud, cropped, model.filtered, ratio, seed), known.camera,
                         solid_parts(known.support));
   for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
+    look_beyond_ends(steps.fragments, known_kind.radius, seen);
     const TubeKind kind = with_length(known_kind, steps.fragments, seen, settings.link);
     steps.length = kind.length();
     steps.links = find_links(steps.fragments, seen, kind, settings.link,

@@ -50,6 +50,7 @@ struct FragmentSettings {
   double weak_max = 0.1;       ///< medians; voxels with fewer votes connect nothing, where there are ramps
   double parallel_max = 0.96;  ///< length of the mean normal of a voxel; more are on a plane
   int points_min = 8;          ///< fragments with fewer points are dropped
+  double speck_max = 0.05;     ///< and those with less than this share of the points on a radius of length
 };
 
 /// Join: which links are possible, and their weights.
@@ -60,13 +61,16 @@ struct LinkSettings {
   double beyond_max = 3.2;         ///< radii, from a fragment's end to a hidden junction
   double seen_empty_max = 0.25;    ///< fraction of the gap between two ends that may be seen to be empty
   // Added to the log odds, because a fragment is more often part of a tube than a whole one.
-  double chain_prior = 16.0;
+  double chain_prior = 10.0;
   double tree_prior = 8.0;
   double junction_prior = 9.0;
   // Shape costs of a tree, in radii per unit of log odds: of its misfit() with the known tree, and of the
   // length it lacks.
   double misfit_unit = 0.9;
   double missing_unit = 4.0;
+  // The cost of what a chain lacks though it should have been seen, in radii per unit of log odds.
+  double unseen_unit = 1.0;
+  double hidden_stretch = 2.0;  ///< a hidden way may be longer by this factor than straight ahead
   LinkWeights weights = learned_weights;
 };
 

@@ -21,7 +21,8 @@ struct Part {
   double length;  ///< m
   int ends;
   std::uint64_t links;  ///< sum of the random numbers of its links
-  double cost;          ///< of its shape, in log odds; 0 for chains
+  double hidden;        ///< m, how far it may go on unseen beyond its ends
+  double cost;          ///< of its shape, in log odds
 };
 
 /// The input of the choice.
@@ -37,6 +38,18 @@ struct Candidates {
   std::vector<std::uint64_t> numbers = {};  ///< random, one per link; no two sets of links have the same sum
   std::vector<Part> alone = {};             ///< each fragment by itself
 };
+
+// The shape cost of a part of a chain: of what it lacks, more than can be hidden beyond its ends. It may have
+// been misjudged that an end is free, so the cost has a limit.
+double shape_cost(const Candidates& candidates, const Part& chain) {
+  constexpr double cost_max = 10;
+  constexpr double slack = 2;  // radii
+  const LinkSettings& settings = candidates.settings;
+  const double radius = candidates.kind.radius;
+  const double unseen = candidates.kind.length_min * (1 - settings.length_tolerance) - chain.length -
+                        settings.hidden_stretch * chain.hidden - slack * radius;
+  return std::clamp(unseen / (settings.unseen_unit * radius), 0.0, cost_max);
+}
 
 // The shape cost of a part of a tree: these fragments with the chosen links between them. If much of the tree
 // is missing, either that much is occluded or the part is no tree at all; the cheaper explanation counts.
@@ -72,7 +85,8 @@ public:
     if (first == second) return false;
     Part tube = joined(first, second, link);
     if (tube.length > candidates_->tube_length_max || tube.ends > candidates_->tube_ends_max) return false;
-    if (candidates_->kind.branches()) tube.cost = cost_of(tube, first, second, link);
+    tube.cost = candidates_->kind.branches() ? cost_of_tree(tube, first, second, link)
+                                             : shape_cost(*candidates_, tube);
     const auto& [from, to, weight] = candidates_->pairs[link];
     const double gain = weight + parts_[first].cost + parts_[second].cost - tube.cost;
     if (gain <= 0) return false;
@@ -116,12 +130,22 @@ private:
   Part joined(std::size_t first, std::size_t second, std::size_t link) const {
     const Part& a = parts_[first];
     const Part& b = parts_[second];
-    const auto& [kind, fragment, end, to, gap, features, weight] = candidates_->links[link];
-    return {a.length + gap + b.length, a.ends + b.ends - ends_taken(kind),
-            a.links + b.links + candidates_->numbers[link], 0};
+    const Link& its = candidates_->links[link];
+    return {.length = a.length + its.gap + b.length,
+            .ends = a.ends + b.ends - ends_taken(its.kind),
+            .links = a.links + b.links + candidates_->numbers[link],
+            .hidden = a.hidden + b.hidden - hidden_beyond(its),
+            .cost = 0};
   }
 
-  double cost_of(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
+  // Beyond the ends that a link takes, m.
+  double hidden_beyond(const Link& link) const {
+    const std::vector<Fragment>& fragments = candidates_->fragments;
+    const double from = fragments[link.fragment].ends[link.end].hidden;
+    return ends_taken(link.kind) == 1 ? from : from + fragments[link.to.fragment].ends[*link.to.end].hidden;
+  }
+
+  double cost_of_tree(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
     const auto weighed = costs_->find(tube.links);
     if (weighed != costs_->end()) return weighed->second;
     std::vector<std::size_t> fragments;
@@ -154,17 +178,20 @@ Selection completed(Selection selection, const std::vector<std::size_t>& kept,
 
 // Repeatedly moves to a heavier selection: one that contains a given link, whatever can be kept beside it,
 // and the heaviest of the others. A single link rarely repairs a tree made of parts of two, so this also
-// tries to rebuild both tubes that the link joins.
+// tries to rebuild both tubes that the link joins. A try looks at every link, so there is a limit to the
+// tries where there are many links: those between thousands of pieces of noise.
 Selection exchanged(const Selection& none, Selection best, const std::vector<std::size_t>& all,
                     bool with_branches) {
   constexpr double rounding = 1e-9;
+  constexpr std::size_t looks_max = 100'000'000;
+  std::size_t tries_left = looks_max / std::max<std::size_t>(all.size(), 1);
   const auto heaviest_first = [](std::vector<std::size_t> links) {
     std::ranges::sort(links);
     return links;
   };
   std::vector<std::size_t> kept = heaviest_first(best.taken());
   std::size_t in_vain = 0;  // links tried since the last exchange
-  for (std::size_t i = 0; in_vain < all.size(); i = (i + 1) % all.size()) {
+  for (std::size_t i = 0; in_vain < all.size() && tries_left > 0; i = (i + 1) % all.size(), --tries_left) {
     ++in_vain;
     Selection with_link = none;
     if (!with_link.take(i)) continue;
@@ -224,9 +251,15 @@ void add_parts(Candidates& candidates) {
   for (std::size_t i = 0; i < candidates.fragments.size(); ++i) {
     const Fragment& fragment = candidates.fragments[i];
     const int ends = static_cast<int>(fragment.ends.size());
-    // A fragment with surplus ends stays a tube by itself, at no cost.
-    const bool is_weighed = candidates.kind.branches() && ends <= candidates.tube_ends_max;
-    candidates.alone.push_back({fragment.length, ends, 0, is_weighed ? shape_cost(candidates, {i}, {}) : 0});
+    double hidden = 0;
+    for (const FragmentEnd& end : fragment.ends) hidden += end.hidden;
+    Part part{.length = fragment.length, .ends = ends, .links = 0, .hidden = hidden, .cost = 0};
+    if (!candidates.kind.branches()) {
+      part.cost = shape_cost(candidates, part);
+    } else if (ends <= candidates.tube_ends_max) {  // with surplus ends it stays a tube by itself, at no cost
+      part.cost = shape_cost(candidates, {i}, {});
+    }
+    candidates.alone.push_back(part);
   }
 }
 

@@ -12,7 +12,7 @@ namespace tanglebin {
 /// Chooses the likeliest combination of the links from find_links() in which every tube is open, no longer
 /// than known, and has no surplus ends. For chains this is the maximum-weight matching of the ends, for trees
 /// the heaviest links one after the other. Then links are exchanged while that increases the sum of the
-/// weights, for trees less the costs of their shapes. Returns ascending indices.
+/// weights, less the costs of the tubes' shapes. Returns ascending indices.
 std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
                                       const TubeKind& kind, const LinkSettings& settings);
 

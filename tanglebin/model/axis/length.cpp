@@ -1,7 +1,6 @@
 #include "tanglebin/model/axis/length.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <set>
@@ -15,20 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The sensor saw that the chain does not go on.
-bool is_free(const FragmentEnd& end, double radius, const RangeImage& seen) {
-  constexpr std::array<double, 2> beyond = {1.6,
-                                            2.2};  // radii; a round end is one beyond the end of the axis
-  return std::ranges::all_of(beyond, [&](double way) {
-    return seen.shows_empty(end.position + way * radius * end.outward, radius);
-  });
-}
-
 // The lengths of the chains of these fragments that are seen from end to end, ascending. m
 std::vector<double> lengths_of_whole_chains(const std::vector<Fragment>& fragments,
                                             const std::vector<Link>& links,
-                                            const std::vector<std::size_t>& chosen,
-                                            const std::vector<std::vector<bool>>& free_ends) {
+                                            const std::vector<std::size_t>& chosen) {
   std::set<std::pair<std::size_t, std::size_t>> joined;
   for (const std::size_t i : chosen) {
     joined.insert({links[i].fragment, links[i].end});
@@ -45,7 +34,7 @@ std::vector<double> lengths_of_whole_chains(const std::vector<Fragment>& fragmen
       length += fragment.length + gaps[member];
       for (std::size_t end = 0; end < fragment.ends.size(); ++end) {
         length += (fragment.ends[end].position - fragment.nodes[fragment.ends[end].node]).norm();
-        if (!joined.contains({member, end}) && !free_ends[member][end]) is_whole = false;
+        if (!joined.contains({member, end}) && fragment.ends[end].hidden > 0) is_whole = false;
       }
     }
     if (is_whole) lengths.push_back(length);
@@ -89,19 +78,13 @@ struct WholeChains {
 // its maximum.
 WholeChains whole_chains(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                          double longest, const LinkSettings& settings) {
-  std::vector<std::vector<bool>> free_ends;
-  for (const Fragment& fragment : fragments) {
-    free_ends.emplace_back();
-    for (const FragmentEnd& end : fragment.ends) free_ends.back().push_back(is_free(end, kind.radius, seen));
-  }
-  std::vector<double> lengths = lengths_of_whole_chains(fragments, {}, {}, free_ends);
+  std::vector<double> lengths = lengths_of_whole_chains(fragments, {}, {});
   const Agreement agreement = agreement_of(lengths);
   if (agreement.chains >= enough && agreement.length * (1 + settings.length_tolerance) >= longest)
     return {std::move(lengths), agreement};
   kind.segments[0].length = std::min(kind.length(), hidden * std::max(longest, agreement.length));
   const std::vector<Link> links = find_links(fragments, seen, kind, settings);
-  lengths =
-      lengths_of_whole_chains(fragments, links, choose_links(fragments, links, kind, settings), free_ends);
+  lengths = lengths_of_whole_chains(fragments, links, choose_links(fragments, links, kind, settings));
   const Agreement of_linked = agreement_of(lengths);
   return {std::move(lengths), of_linked};
 }
@@ -112,6 +95,7 @@ double checked_length(const TubeKind& kind, const std::vector<Fragment>& fragmen
   if (longest <= length_max(kind.length(), settings)) return kind.length();
   TubeKind unknown = kind;
   unknown.segments[0].length = std::numeric_limits<double>::infinity();
+  unknown.length_min = 0;
   const Agreement agreement = whole_chains(unknown, fragments, seen, longest, settings).agreement;
   const bool is_too_short =
       agreement.chains >= enough && agreement.length > length_max(kind.length(), settings);

@@ -33,7 +33,8 @@ std::string_view feature_name(LinkKind kind, std::size_t feature) {
   constexpr std::size_t turn = 5;
   if (kind == LinkKind::junction && feature == turn) return "beyond";
   constexpr std::array<std::string_view, link_features> names = {
-      "constant", "log_gap", "gap", "angle", "angle_squared", "turn", "seen_empty", "obstruction"};
+      "constant",   "log_gap",     "gap",        "angle",     "angle_squared", "turn",
+      "seen_empty", "obstruction", "angle_rate", "turn_rate", "seen_ends",     "hidden"};
   return names.at(feature);
 }
 

@@ -8,13 +8,17 @@ namespace tanglebin {
 
 /// The features of a link. Between two ends p and q, let v = q − p, d1 the direction out of the first and d2
 /// that into the second, and α = angle(d1, v) + angle(d2, v) as in the paper's Section 4, or angle(d1, d2) if
-/// the ends are nearer than a radius. Lengths are in radii. The features are: 1; ln(|v| + 0.16); |v|; α; α²;
-/// angle(d1, d2); the fraction of the way on which the sensor saw past a tube; and how far other fragments
-/// obstruct the way, as the square root of the mean of Obstacles::overlap() along it, ignoring what is within
-/// a diameter of the ends. The way is straight or curved, whichever was seen less to be empty and, if equal,
-/// is less obstructed. From an end to a junction at q, α = angle(d1, v), and angle(d1, d2) is replaced by the
-/// distance of q beyond the end of its fragment.
-inline constexpr std::size_t link_features = 8;
+/// the ends are nearer than a radius. Lengths are in radii. The features are:
+/// 1, ln(|v| + 0.16), |v|, α, α², and β = angle(d1, d2);
+/// the fraction of the way on which the sensor saw past a tube;
+/// how far other fragments obstruct the way, as the square root of the mean of Obstacles::overlap() along it,
+/// ignoring what is within a diameter of the ends;
+/// α² / (|v| + 2) and β² / (|v| + 2), since a tube with random bends turns by the square root of its length;
+/// how many of the two ends were seen to be a tube's end, and Σ ln(1 + h) over them, h = FragmentEnd::hidden.
+/// The way is straight or curved, whichever was seen less to be empty and, if equal, is less obstructed. From
+/// an end to a junction at q, α = angle(d1, v), β is replaced by the distance of q beyond the end of its
+/// fragment, β² / (|v| + 2) is 0, and the last two are of the one end.
+inline constexpr std::size_t link_features = 12;
 using LinkFeatures = std::array<double, link_features>;
 
 /// The kinds of links.
@@ -34,7 +38,8 @@ constexpr int ends_taken(LinkKind kind) {
 std::string_view name_of(LinkKind kind);
 
 /// The name of a link's feature, 0 to link_features − 1: "constant", "log_gap", "gap", "angle",
-/// "angle_squared", "turn" ("beyond" of a junction), "seen_empty", "obstruction".
+/// "angle_squared", "turn" ("beyond" of a junction), "seen_empty", "obstruction", "angle_rate", "turn_rate",
+/// "seen_ends", "hidden".
 std::string_view feature_name(LinkKind kind, std::size_t feature);
 
 /// Weights of the features. Their weighted sum is the log odds, at each of a link's ends, of the link against
@@ -48,11 +53,15 @@ struct LinkWeights {
   LinkFeatures& of(LinkKind kind);
 };
 
-/// Learned by `tanglebin learn` from recipes/learning.toml, rounded to four decimals.
+/// Learned by `tanglebin learn` from recipes/learning.toml and recipes/learning-views.toml, rounded to four
+/// decimals.
 inline constexpr LinkWeights learned_weights = {
-    .chain_ends = {14.1340, -3.7326, 0.1670, -9.4182, 0.3744, 2.8452, -16.8851, -17.5441},
-    .tree_ends = {9.2801, -0.9678, -0.2746, -8.7584, 0.6633, 3.9613, -14.3164, -5.1213},
-    .junction = {3.9498, -0.6503, -0.2938, -9.4557, 2.7211, -0.9726, -24.7574, 0.9809},
+    .chain_ends = {15.5080, -2.2616, 0.0000, -12.2594, 0.7883, 5.5832, -22.7500, -16.5711, 4.6678, -8.2262,
+                   -1.2200, -0.5847},
+    .tree_ends = {11.5403, -1.3926, -0.2571, -9.9839, 0.9808, 4.7893, -14.9670, -4.7823, 0.1320, -1.5935,
+                  -1.0706, -0.3104},
+    .junction = {3.8304, -0.7074, -0.3061, -9.2422, 2.7392, -1.0139, -23.4626, 0.8058, -0.2611, 0.0000,
+                 -0.5971, 0.1038},
 };
 
 }  // namespace tanglebin

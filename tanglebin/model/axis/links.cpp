@@ -17,13 +17,37 @@ using Eigen::Vector3d;
 
 constexpr double shortest = 0.16;  // radii, added to gaps before their logarithm
 
+double rate(double angle, double gap) {
+  constexpr double least = 2;  // radii
+  return angle * angle / (gap + least);
+}
+
+double seen_to_end(const FragmentEnd& end) {
+  return end.hidden == 0 ? 1 : 0;
+}
+
+double hidden_beyond(const FragmentEnd& end, double radius) {
+  return std::log1p(end.hidden / radius);
+}
+
 LinkFeatures features_of(const FragmentEnd& first, const FragmentEnd& second, double radius) {
   const Vector3d way = second.position - first.position;
   const Vector3d inward = -second.outward;
   const double gap = way.norm() / radius;
   const double turn = angle_between(first.outward, inward);
   const double angle = gap < 1 ? turn : angle_between(first.outward, way) + angle_between(inward, way);
-  return {1, std::log(gap + shortest), gap, angle, angle * angle, turn, 0, 0};
+  return {1,
+          std::log(gap + shortest),
+          gap,
+          angle,
+          angle * angle,
+          turn,
+          0,
+          0,
+          rate(angle, gap),
+          rate(turn, gap),
+          seen_to_end(first) + seen_to_end(second),
+          hidden_beyond(first, radius) + hidden_beyond(second, radius)};
 }
 
 /// A possible junction of a fragment: at a node of its centre line, or beyond an end.
@@ -36,7 +60,18 @@ LinkFeatures features_of(const FragmentEnd& end, const JunctionPlace& junction, 
   const Vector3d way = junction.target.position - end.position;
   const double gap = way.norm() / radius;
   const double angle = angle_between(end.outward, way);
-  return {1, std::log(gap + shortest), gap, angle, angle * angle, junction.beyond / radius, 0, 0};
+  return {1,
+          std::log(gap + shortest),
+          gap,
+          angle,
+          angle * angle,
+          junction.beyond / radius,
+          0,
+          0,
+          rate(angle, gap),
+          0,
+          seen_to_end(end),
+          hidden_beyond(end, radius)};
 }
 
 std::vector<JunctionPlace> junction_places(const std::vector<Fragment>& fragments, std::size_t of,
@@ -49,10 +84,10 @@ std::vector<JunctionPlace> junction_places(const std::vector<Fragment>& fragment
   constexpr double step = 0.4;  // radii
   const int steps = static_cast<int>(beyond_max / step);
   for (std::size_t i = 0; i < fragment.ends.size(); ++i) {
-    const auto& [node, position, outward] = fragment.ends[i];
+    const FragmentEnd& end = fragment.ends[i];
     for (int j = 1; j <= steps; ++j) {
       const double beyond = j * step * radius;
-      places.push_back({{of, node, i, position + beyond * outward}, beyond});
+      places.push_back({{of, end.node, i, end.position + beyond * end.outward}, beyond});
     }
   }
   return places;

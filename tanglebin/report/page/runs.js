@@ -16,6 +16,7 @@
     f1: ["F1", share],
     panoptic_quality: ["panoptic quality", share],
     adjusted_rand_index: ["adjusted Rand index", share],
+    unmixed_recall: ["micro-recall without mixed points", share],
     centre_line_error: ["centre-line error, mm", value => value.toFixed(2)],
     joins_missed: ["joins missed", count],
     joins_wrong: ["joins wrong", count],
@@ -48,10 +49,11 @@
       const { drawn, ...columns } = JSON.parse(root.querySelector("script").textContent);
       this.columns = { ...columns, ...drawn };
       this.kinds = { ...KEYS, ...MEASURES };
+      this.measures = Object.keys(MEASURES).filter(name => columns[name].some(value => value !== null));
       for (const name of Object.keys(drawn)) this.kinds[name] = [name, fewDigits];
       if (columns.scanner.every(name => name === "")) delete this.kinds.scanner;
       this.variables = ["tubes", "ratio", ...NAMES.filter(name => name in this.kinds), ...Object.keys(drawn), "case",
-                        ...Object.keys(MEASURES)];
+                        ...this.measures];
       this.columns.centre_line_error = this.columns.centre_line_error.map(metres => metres === null ? null : 1000 * metres);
       this.size = this.columns.set.length;
       this.methods = distinct(this.columns.method);
@@ -70,7 +72,7 @@
 
     addElements(root) {
       const listed = names => names.map(name => [name, this.titled(name)]);
-      this.measure = choice("Plot", listed(Object.keys(MEASURES)), "micro_recall");
+      this.measure = choice("Plot", listed(this.measures), "micro_recall");
       this.variable = choice("against", listed(this.variables), "tubes");
       this.filters = FILTERS.filter(name => name in this.kinds).map(name => ({ name, ...choice(this.titled(name),
         [["", "all"], ...distinct(this.columns[name]).map(value => [value, String(value)])], "") }));

@@ -36,10 +36,12 @@ TEST(Links, JoinEndsThatFaceEachOtherAndSayHowFarApartTheyAre) {
   EXPECT_EQ(link.to.fragment, 1U);
   EXPECT_EQ(link.to.end, 0U);
   EXPECT_NEAR(link.gap, 0.05, 1e-12);
-  // 1, ln(gap + 0.16), gap in radii, no angles, nothing that was seen, and nothing in the way.
+  // 1, ln(gap + 0.16), gap in radii, no angles, nothing that was seen, and nothing in the way. Both ends are
+  // seen.
   EXPECT_THAT(link.features, ElementsAre(1, testing::DoubleNear(std::log(4.16), 1e-12),
                                          testing::DoubleNear(4, 1e-12), testing::DoubleNear(0, 1e-6),
-                                         testing::DoubleNear(0, 1e-6), testing::DoubleNear(0, 1e-6), 0, 0));
+                                         testing::DoubleNear(0, 1e-6), testing::DoubleNear(0, 1e-6), 0, 0,
+                                         testing::DoubleNear(0, 1e-6), testing::DoubleNear(0, 1e-6), 2, 0));
 }
 
 TEST(Links, AreNotWhereTheSensorSawThatThereIsNothing) {
