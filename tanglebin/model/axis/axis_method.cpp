@@ -99,6 +99,25 @@ bool is_tube(const Tube& tube, const std::optional<double>& roundness, const Sup
   return *roundness >= least && *roundness <= most;
 }
 
+// No more is seen of it than of a ball, and the rest should have been seen.
+bool is_false_speck(const AxisSteps& steps, const std::vector<std::size_t>& members, const TubeKind& kind,
+                    const LinkSettings& settings) {
+  std::size_t points = 0;
+  for (const std::size_t member : members) points += steps.fragments[member].points.size();
+  const double diameter = 2;  // radii
+  if (static_cast<double>(points) > diameter * points_on_a_radius(steps.fragments, kind.radius)) return false;
+  double length = 0;
+  double hidden = 0;
+  for (const std::size_t member : members) {
+    length += steps.fragments[member].length;
+    for (const FragmentEnd& end : steps.fragments[member].ends) hidden += end.hidden;
+  }
+  for (const std::size_t i : steps.chosen) {
+    if (std::ranges::binary_search(members, steps.links[i].fragment)) length += steps.links[i].gap;
+  }
+  return unseen_length(length, hidden, kind, settings) > 0;
+}
+
 std::size_t number_of_votes(const AxisSteps& steps) {
   return static_cast<std::size_t>(
       std::ranges::count_if(steps.votes.votes, [](const Vector3f& vote) { return vote.allFinite(); }));
@@ -155,6 +174,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   std::vector<std::int32_t> claimed(cloud.points.size(), null_label);
   for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
     std::erase_if(steps.tubes, [&](const std::vector<std::size_t>& fragments) {
+      if (is_false_speck(steps, fragments, kind, settings.link)) return true;
       Tube tube = fit_tube(steps.fragments, fragments, steps.links, steps.chosen, points, kind, settings.fit);
       if (!is_tube(tube, roundness(tube, steps.fragments, fragments, points, steps.votes, known.camera),
                    known.support))

@@ -61,7 +61,7 @@ struct LinkSettings {
   double beyond_max = 3.2;         ///< radii, from a fragment's end to a hidden junction
   double seen_empty_max = 0.25;    ///< fraction of the gap between two ends that may be seen to be empty
   // Added to the log odds, because a fragment is more often part of a tube than a whole one.
-  double chain_prior = 10.0;
+  double chain_prior = 12.0;
   double tree_prior = 8.0;
   double junction_prior = 9.0;
   // Shape costs of a tree, in radii per unit of log odds: of its misfit() with the known tree, and of the

@@ -19,4 +19,10 @@ void look_beyond_ends(std::vector<Fragment>& fragments, double radius, const Ran
   }
 }
 
+double unseen_length(double length, double hidden, const TubeKind& kind, const LinkSettings& settings) {
+  constexpr double slack = 2;  // radii
+  return kind.length_min * (1 - settings.length_tolerance) - length - settings.hidden_stretch * hidden -
+         slack * kind.radius;
+}
+
 }  // namespace tanglebin

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "tanglebin/model/axis/assemble.hpp"
+#include "tanglebin/model/axis/beyond_ends.hpp"
 #include "tanglebin/model/axis/matching.hpp"
 
 namespace tanglebin {
@@ -43,12 +44,8 @@ struct Candidates {
 // been misjudged that an end is free, so the cost has a limit.
 double shape_cost(const Candidates& candidates, const Part& chain) {
   constexpr double cost_max = 10;
-  constexpr double slack = 2;  // radii
-  const LinkSettings& settings = candidates.settings;
-  const double radius = candidates.kind.radius;
-  const double unseen = candidates.kind.length_min * (1 - settings.length_tolerance) - chain.length -
-                        settings.hidden_stretch * chain.hidden - slack * radius;
-  return std::clamp(unseen / (settings.unseen_unit * radius), 0.0, cost_max);
+  const double unseen = unseen_length(chain.length, chain.hidden, candidates.kind, candidates.settings);
+  return std::clamp(unseen / (candidates.settings.unseen_unit * candidates.kind.radius), 0.0, cost_max);
 }
 
 // The shape cost of a part of a tree: these fragments with the chosen links between them. If much of the tree

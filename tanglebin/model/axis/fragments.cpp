@@ -120,17 +120,6 @@ double length_of(const Fragment& fragment) {
   return length;
 }
 
-// The median number of points that a radius of length has; 0 if all fragments are short.
-double points_on_a_radius(const std::vector<Fragment>& fragments, double radius) {
-  constexpr double length_min = 2;  // radii
-  std::vector<double> densities;
-  for (const Fragment& fragment : fragments) {
-    if (fragment.length < length_min * radius) continue;
-    densities.push_back(static_cast<double>(fragment.points.size()) * radius / fragment.length);
-  }
-  return densities.empty() ? 0 : median(std::move(densities));
-}
-
 // Of a close scanner's points, a few in one place are noise.
 void drop_specks(std::vector<Fragment>& fragments, double radius, double share_min) {
   const double points_min = share_min * points_on_a_radius(fragments, radius);
@@ -140,6 +129,16 @@ void drop_specks(std::vector<Fragment>& fragments, double radius, double share_m
 }
 
 }  // namespace
+
+double points_on_a_radius(const std::vector<Fragment>& fragments, double radius) {
+  constexpr double length_min = 2;  // radii
+  std::vector<double> densities;
+  for (const Fragment& fragment : fragments) {
+    if (fragment.length < length_min * radius) continue;
+    densities.push_back(static_cast<double>(fragment.points.size()) * radius / fragment.length);
+  }
+  return densities.empty() ? 0 : median(std::move(densities));
+}
 
 std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
                                      const FragmentSettings& settings) {

@@ -26,6 +26,9 @@ struct Fragment {
   double length;                       ///< m, of the centre line
 };
 
+/// The median number of points that a radius (m) of a fragment's length has; 0 if all fragments are short.
+double points_on_a_radius(const std::vector<Fragment>& fragments, double radius);
+
 /// Finds the fragments: thin clusters of votes. Centre lines branch only if `with_branches`. `radius` in m.
 std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
                                      const FragmentSettings& settings);
