@@ -15,6 +15,7 @@ PYBIND11_MODULE(_core, module) {
   bind_model(module);
   bind_score(module);
   bind_dataset(module);
+  bind_experiment(module);
 }
 
 }  // namespace tanglebin::python
