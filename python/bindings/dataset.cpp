@@ -207,6 +207,14 @@ void bind_records(py::module_& module) {
           "json", [](const CaseRecord& record) { return to_json(record); }, doc::dataset::to_json);
 }
 
+}  // namespace
+
+void bind_dataset(py::module_& module) {
+  bind_runs(module);
+  bind_verify(module);
+  bind_records(module);
+}
+
 void bind_index(py::module_& module) {
   py::class_<Index, std::shared_ptr<Index>>(
       module, "Index", "What a dataset's directory lists; tanglebin.Dataset is the way to it.")
@@ -260,15 +268,6 @@ void bind_index(py::module_& module) {
             });
           },
           py::arg("id"), py::arg("labels"), py::arg("scanner") = "", doc::experiment::score_scene);
-}
-
-}  // namespace
-
-void bind_dataset(py::module_& module) {
-  bind_runs(module);
-  bind_verify(module);
-  bind_records(module);
-  bind_index(module);
 }
 
 }  // namespace tanglebin::python

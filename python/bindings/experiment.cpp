@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -22,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using Seconds = std::chrono::duration<double>;
 
-ProcessLimits limits_of(std::optional<double> seconds, std::optional<std::uint64_t> bytes) {
+ProcessLimits limits_of_command(std::optional<double> seconds, std::optional<std::uint64_t> bytes) {
   constexpr double longest = 1e9;
   ProcessLimits limits = default_limits();
   if (seconds && !(*seconds > 0 && *seconds <= longest))
@@ -32,18 +34,19 @@ ProcessLimits limits_of(std::optional<double> seconds, std::optional<std::uint64
   return limits;
 }
 
-Entry entry_named(const std::string& name, const std::optional<std::string>& command,
-                  const std::optional<fs::path>& labels, std::optional<double> time_limit,
-                  std::optional<std::uint64_t> memory_limit) {
+Entry entry_of_arguments(const std::string& name, const std::optional<std::string>& command,
+                         const std::optional<fs::path>& labels, std::optional<double> time_limit,
+                         std::optional<std::uint64_t> memory_limit) {
   if (command && labels)
     throw InputError({"", 0, "labels"}, "a command and labels", "one of them, or none for a built-in method");
-  if (command) return {name, command_of(*command, fs::current_path(), limits_of(time_limit, memory_limit))};
+  if (command)
+    return {name, command_of(*command, fs::current_path(), limits_of_command(time_limit, memory_limit))};
   if (labels) return {name, LabelsDirectory{fs::absolute(*labels).lexically_normal().string()}};
   return entry_of(method_named(name));
 }
 
-ExperimentSettings settings_of(const std::vector<Entry>& methods, const std::vector<double>& ratios,
-                               const ModelSettings& model, const Scene& scene, bool keep_models) {
+ExperimentSettings experiment_settings(const std::vector<Entry>& methods, const std::vector<double>& ratios,
+                                       const ModelSettings& model, const Scene& scene, bool keep_models) {
   expect_names(methods);
   double last = 0;
   for (const double ratio : ratios) {
@@ -56,20 +59,20 @@ ExperimentSettings settings_of(const std::vector<Entry>& methods, const std::vec
   return {.methods = methods, .ratios = ratios, .model = model, .scene = scene, .keep_models = keep_models};
 }
 
-void bind_settings(py::module_& module) {
+void bind_entries(py::module_& module) {
   namespace doc = doc::experiment;
   py::class_<Entry>(module, "Entry", doc::Entry)
-      .def(py::init(&entry_named), py::arg("name"), py::arg("command") = py::none(),
+      .def(py::init(&entry_of_arguments), py::arg("name"), py::arg("command") = py::none(),
            py::arg("labels") = py::none(), py::arg("time_limit") = py::none(),
            py::arg("memory_limit") = py::none(),
            "A method that is built in, \"axis\" or \"paper\"; a command for each cloud, with limits in s and "
            "bytes; or a directory of labels that exist already (docs/benchmark.md).")
       .def_readonly("name", &Entry::name, "its name in the results");
   py::class_<ExperimentSettings>(module, "ExperimentSettings", doc::ExperimentSettings)
-      .def(py::init(&settings_of), py::arg("methods"), py::arg("ratios") = std::vector<double>{1},
+      .def(py::init(&experiment_settings), py::arg("methods"), py::arg("ratios") = std::vector<double>{1},
            py::arg_v("model", ModelSettings{}, "ModelSettings()"), py::arg_v("scene", Scene{}, "Scene()"),
            py::arg("keep_models") = false)
-      .def_readonly("methods", &ExperimentSettings::methods, doc::ExperimentSettings_methods)
+      .def_readonly("methods", &ExperimentSettings::methods, "in the order of the results")
       .def_readonly("ratios", &ExperimentSettings::ratios, doc::ExperimentSettings_ratios)
       .def_readonly("model", &ExperimentSettings::model, doc::ExperimentSettings_model)
       .def_readonly("scene", &ExperimentSettings::scene, doc::ExperimentSettings_scene)
@@ -89,7 +92,7 @@ ExperimentSummary experiment(const fs::path& dataset, const ExperimentSettings& 
   return summary;
 }
 
-void bind_runs(py::module_& module) {
+void bind_experiments(py::module_& module) {
   namespace doc = doc::experiment;
   py::class_<FailedModel>(module, "FailedModel", doc::FailedModel)
       .def_readonly("id", &FailedModel::id, "the case")
@@ -109,7 +112,7 @@ void bind_runs(py::module_& module) {
           .c_str());
 }
 
-void bind_compare(py::module_& module) {
+void bind_comparisons(py::module_& module) {
   namespace doc = doc::experiment;
   py::class_<Contestant>(module, "Contestant", doc::Contestant)
       .def(py::init([](const fs::path& results, const std::string& method) {
@@ -154,13 +157,14 @@ std::vector<MeanScore> mean_scores(const std::vector<SceneScore>& scenes) {
   return means;
 }
 
-void bind_scores(py::module_& module) {
+void bind_scene_scores(py::module_& module) {
   namespace doc = doc::experiment;
   py::class_<SceneScore>(module, "SceneScore", doc::SceneScore)
       .def_property_readonly(
           "id", [](const SceneScore& scene) { return scene.seen.scene; }, "the case")
       .def_property_readonly(
-          "scanner", [](const SceneScore& scene) { return scene.seen.scanner; }, doc::SeenCase_scanner)
+          "scanner", [](const SceneScore& scene) { return scene.seen.scanner; },
+          tanglebin::doc::dataset::SeenCase_scanner)
       .def_property_readonly(
           "labels",
           [](const SceneScore& scene) {
@@ -192,20 +196,20 @@ void bind_scores(py::module_& module) {
 
 // Draws what results show; interruptible between two runs.
 template <typename Draw>
-void draw(const fs::path& dataset, const Draw& draw_from) {
+void draw_results(const fs::path& dataset, const Draw& draw_from) {
   without_gil([&] {
     const std::lock_guard alone(simulation());
     draw_from(read_dataset(dataset), ctrl_c_taker());
   });
 }
 
-void bind_report(py::module_& module) {
+void bind_reports(py::module_& module) {
   namespace doc = doc::report;
   const char* const note = "`dataset` is its directory. Ctrl-C raises KeyboardInterrupt between two runs.";
   module.def(
       "write_pictures",
       [](const fs::path& directory, const fs::path& dataset, const ExperimentSettings& settings) {
-        draw(dataset, [&](const Dataset& read, const auto& at_run) {
+        draw_results(dataset, [&](const Dataset& read, const auto& at_run) {
           write_pictures(directory, read, settings, at_run);
         });
       },
@@ -214,7 +218,7 @@ void bind_report(py::module_& module) {
       "write_scenes",
       [](const fs::path& directory, const fs::path& dataset, const ExperimentSettings& settings,
          std::size_t count) {
-        draw(dataset, [&](const Dataset& read, const auto& at_run) {
+        draw_results(dataset, [&](const Dataset& read, const auto& at_run) {
           write_scenes(directory, read, settings, count, at_run);
         });
       },
@@ -232,11 +236,11 @@ void bind_report(py::module_& module) {
 }  // namespace
 
 void bind_experiment(py::module_& module) {
-  bind_settings(module);
-  bind_runs(module);
-  bind_compare(module);
-  bind_scores(module);
-  bind_report(module);
+  bind_entries(module);
+  bind_experiments(module);
+  bind_comparisons(module);
+  bind_scene_scores(module);
+  bind_reports(module);
 }
 
 }  // namespace tanglebin::python

@@ -51,7 +51,7 @@ def test_settings_are_checked():
 
 def test_a_bar_has_round_bends_and_flat_ends():
     pieces = [tanglebin.Piece(length=0.1), tanglebin.Piece(bend=1.5, bend_radius=0.02), tanglebin.Piece(length=0.05)]
-    spec = tanglebin.TubeSpec(radius=0.006, pieces=pieces, flat_ends=True)
+    spec = tanglebin.TubeSpec(radius=0.006, segments=[], pieces=pieces, flat_ends=True)
     assert spec.pieces == pieces and spec.flat_ends
     bar = tanglebin.draw_tube(tanglebin.Rng(1), spec, 1)
     assert bar.flat_ends and len(bar.nodes) > 10
