@@ -68,7 +68,7 @@ def test_a_case_that_ends_its_workers_is_given_up(dataset_directory, recipe, tmp
     settings = tanglebin.ExperimentSettings([tanglebin.Entry("one", command=f"python3 {script} {{cloud}} {{out}}")])
     summary = tanglebin.run_experiment(dataset_directory, settings, tmp_path / "results", wanted=recipe.cases[:1])
     (failed,) = summary.failed
-    assert isinstance(failed, tanglebin.FailedModel) and str(failed.id) == "A1/1" and "killed" in failed.reason
+    assert isinstance(failed, tanglebin.FailedModel) and str(failed.id) == "A1/1" and "signal 9" in failed.reason
     assert not summary.is_complete
 
 
