@@ -49,7 +49,7 @@ TEST(JsonRecord, TextThatIsMissingOrNullIsNone) {
   EXPECT_EQ(record.text_if_there("dataset"), std::nullopt);
   EXPECT_EQ(record.text_if_there("digest"), std::nullopt);
   EXPECT_EQ(complaint([&] { record.text_if_there("cases"); }),
-            "experiment.json:2: cases: found 3, expected text");
+            "experiment.json:2: cases: found '3', expected text");
 }
 
 TEST(JsonRecord, NestedTooDeepIsAnErrorThatNamesTheFile) {
