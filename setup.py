@@ -20,7 +20,7 @@ class BuildWithCMake(build_ext):
     def build_extension(self, extension):
         build = Path(self.build_temp).resolve()
         options = ["-DTANGLEBIN_PYTHON=ON", "-DTANGLEBIN_BUILD_TESTS=OFF", "-DTANGLEBIN_BUILD_BENCH=OFF"]
-        configure = ["cmake", "-S", SOURCE, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", *options]
+        configure = ["cmake", "--preset", "release", "-S", SOURCE, "-B", build, *options]
         subprocess.run([*configure, f"-DPython_EXECUTABLE={sys.executable}"], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "tanglebin_python"], check=True)
         package = Path(self.get_ext_fullpath(extension.name)).parent

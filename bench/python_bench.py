@@ -17,28 +17,10 @@ from statistics import median
 import numpy as np
 import tanglebin
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "python" / "examples"))
+SOURCE = Path(__file__).parents[1]
+sys.path.insert(0, str(SOURCE / "python" / "examples"))
 import train_loader
 
-RECIPE = """
-seed = 1
-[output]
-bin_points = false
-worlds = false
-[[set]]
-name = "A"
-tubes = [10]
-cases = {cases}
-[set.tube]
-radius = 0.0125
-mass = 0.5
-length = 0.5
-cylinders_min = 5
-cylinders_max = 10
-cylinder_length_min = 0.02
-bend_min_deg = 0
-bend_max_deg = 30
-"""
 WORKERS = 2
 
 
@@ -68,8 +50,20 @@ def rate_of_loader(recipe, cases):
     return cases / seconds_of(lambda: [len(batch) for batch in loader])
 
 
+def ten_tubes(cases):
+    """Set A with ten tubes in each case, and of its files only the tubes' points and the configurations."""
+    recipe = tanglebin.read_recipe(SOURCE / "recipes" / "set-a.toml")
+    sets = recipe.sets
+    sets[0].tubes, sets[0].cases = [10], cases
+    recipe.sets = sets
+    output = recipe.output
+    output.bin_points = output.worlds = False
+    recipe.output = output
+    return recipe
+
+
 def time_loader(program, cases):
-    recipe = tanglebin.Recipe(RECIPE.format(cases=cases))
+    recipe = ten_tubes(cases)
     rates = [(rate_of_program(program, recipe, cases), rate_of_loader(recipe, cases)) for _ in range(3)]
     for by_program, by_loader in rates:
         print(

@@ -2,11 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <sstream>
 #include <string>
 
-#include "fuzz/is_refused.hpp"
+#include "fuzz/expect_same_again.hpp"
 #include "tanglebin/model/parameters.hpp"
 #include "tanglebin/profile/profile.hpp"
 
@@ -24,9 +23,6 @@ std::string read_and_write(const std::string& text) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  std::string written;
-  if (is_refused([&] { written = read_and_write(std::string(data, data + size)); })) return 0;
-  // An exception from here on is a bug: the project cannot read what it writes.
-  if (read_and_write(written) != written) std::abort();
+  expect_same_again(data, size, read_and_write);
   return 0;
 }

@@ -16,6 +16,7 @@
 #include "tanglebin/dataset/merge_datasets.hpp"
 #include "tanglebin/dataset/repair_dataset.hpp"
 #include "tanglebin/dataset/verify_dataset.hpp"
+#include "tanglebin/experiment/score_dataset.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/depth_input.hpp"
 #include "tanglebin/io/images.hpp"
@@ -206,6 +207,14 @@ void bind_records(py::module_& module) {
           "json", [](const CaseRecord& record) { return to_json(record); }, doc::dataset::to_json);
 }
 
+}  // namespace
+
+void bind_dataset(py::module_& module) {
+  bind_runs(module);
+  bind_verify(module);
+  bind_records(module);
+}
+
 void bind_index(py::module_& module) {
   py::class_<Index, std::shared_ptr<Index>>(
       module, "Index", "What a dataset's directory lists; tanglebin.Dataset is the way to it.")
@@ -250,16 +259,15 @@ void bind_index(py::module_& module) {
           [](const Index& index, const CaseId& id, const std::string& scanner) {
             return array_of(without_gil([&] { return labels_of(index, id, scanner); }));
           },
-          py::arg("id"), py::arg("scanner") = "");
-}
-
-}  // namespace
-
-void bind_dataset(py::module_& module) {
-  bind_runs(module);
-  bind_verify(module);
-  bind_records(module);
-  bind_index(module);
+          py::arg("id"), py::arg("scanner") = "")
+      .def(
+          "score_labels",
+          [](const Index& index, const CaseId& id, const fs::path& labels, const std::string& scanner) {
+            return without_gil([&] {
+              return score_scene(index.dataset, {id, scanner}, LabelsDirectory{labels.string()});
+            });
+          },
+          py::arg("id"), py::arg("labels"), py::arg("scanner") = "", doc::experiment::score_scene);
 }
 
 }  // namespace tanglebin::python

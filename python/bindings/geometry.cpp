@@ -179,7 +179,8 @@ void bind_tube(py::module_& module) {
           "centre_lines", &centre_lines,
           "The centre line, m, world frame: an array k x 3 for each run of edges between ends and "
           "junctions, which is one for a chain. Copies.")
-      .def_property_readonly("length", &total_length, doc::geometry::total_length)
+      .def_property_readonly("length", py::overload_cast<const Tube&>(&total_length),
+                             doc::geometry::total_length)
       .def(
           "transformed",
           [](Tube tube, const py::array_t<double>& motion) {

@@ -23,6 +23,11 @@ void Reporter::report(double done, double total) {
   if (progress_) (*progress_)(done, total);
 }
 
+std::function<void()> ctrl_c_taker() {
+  static const Progress none;
+  return [reporter = Reporter(none)]() mutable { reporter.report(0, 0); };
+}
+
 RunObserver observer_of(const Progress& progress) {
   RunObserver observer;
   observer.progress = [&progress](const RunProgress& run) {

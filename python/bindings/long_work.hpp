@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <mutex>
 #include <optional>
 
@@ -25,6 +26,9 @@ private:
   const Progress& progress_;
   Clock::time_point next_ = Clock::now();
 };
+
+/// A function for work without progress to call now and then, which takes Ctrl-C as Reporter does.
+std::function<void()> ctrl_c_taker();
 
 /// Reports the cases of a run over a dataset that are done or given up. Both arguments must outlive the
 /// result.

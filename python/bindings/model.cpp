@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "long_work.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/model/parameters.hpp"
 #include "tanglebin/model/tubes_json.hpp"
@@ -114,10 +115,10 @@ void bind_model(py::module_& module) {
   module.def(
       "model_tubes",
       [](const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings) {
-        return without_gil([&] { return model_tubes(cloud, known, settings); });
+        return without_gil([&] { return model_tubes(cloud, known, settings, ctrl_c_taker()); });
       },
       py::arg("cloud"), py::arg("known"), py::arg_v("settings", ModelSettings{}, "ModelSettings()"),
-      doc::model::model_tubes);
+      also(doc::model::model_tubes, "Ctrl-C raises KeyboardInterrupt there.").c_str());
   module.def("tubes_json", &tubes_json, py::arg("model"), doc::model::tubes_json);
 }
 

@@ -15,6 +15,8 @@ PYBIND11_MODULE(_core, module) {
   bind_model(module);
   bind_score(module);
   bind_dataset(module);
+  bind_experiment(module);
+  bind_index(module);
 }
 
 }  // namespace tanglebin::python

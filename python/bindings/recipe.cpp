@@ -65,6 +65,7 @@ void bind_parts(py::module_& module) {
       .def_readwrite("pcds", &OutputSettings::pcds, doc::recipe::OutputSettings_pcds)
       .def_readwrite("depths", &OutputSettings::depths, doc::recipe::OutputSettings_depths)
       .def_readwrite("labels", &OutputSettings::labels, doc::recipe::OutputSettings_labels)
+      .def_readwrite("occlusions", &OutputSettings::occlusions, doc::recipe::OutputSettings_occlusions)
       .def_readwrite("properties", &OutputSettings::properties, doc::recipe::OutputSettings_properties);
   py::class_<Scanner>(module, "Scanner", doc::recipe::Scanner)
       .def(py::init([](const std::string& name, const Camera& camera, const Sensor& sensor) {

@@ -56,20 +56,36 @@ void bind_drawing(py::module_& module) {
       .def_readwrite("bend_min", &SegmentSpec::bend_min, doc::SegmentSpec_bend_min)
       .def_readwrite("bend_max", &SegmentSpec::bend_max, doc::SegmentSpec_bend_max)
       .def(py::self == py::self);
+  py::class_<Piece>(module, "Piece", doc::Piece)
+      .def(py::init([](double length, double bend, double bend_radius, double twist) {
+             return Piece{length, bend, bend_radius, twist};
+           }),
+           py::arg("length") = Piece{}.length, py::arg("bend") = Piece{}.bend,
+           py::arg("bend_radius") = Piece{}.bend_radius, py::arg("twist") = Piece{}.twist)
+      .def_readwrite("length", &Piece::length, doc::Piece_length)
+      .def_readwrite("bend", &Piece::bend, doc::Piece_bend)
+      .def_readwrite("bend_radius", &Piece::bend_radius, doc::Piece_bend_radius)
+      .def_readwrite("twist", &Piece::twist, doc::Piece_twist)
+      .def(py::self == py::self);
   py::class_<TubeSpec>(module, "TubeSpec", doc::TubeSpec)
-      .def(py::init([](double radius, double mass, double density, const std::vector<SegmentSpec>& segments) {
-             const TubeSpec spec{radius, mass, density, segments};
+      .def(py::init([](double radius, double mass, double density, const std::vector<SegmentSpec>& segments,
+                       const std::vector<Piece>& pieces, bool flat_ends) {
+             const TubeSpec spec{radius, mass, density, segments, pieces, flat_ends};
              validate(spec);
              return spec;
            }),
            py::arg("radius") = TubeSpec{}.radius, py::arg("mass") = TubeSpec{}.mass,
            py::arg("density") = TubeSpec{}.density,
-           py::arg_v("segments", TubeSpec{}.segments, "[SegmentSpec()]"))
+           py::arg_v("segments", TubeSpec{}.segments, "[SegmentSpec()]"),
+           py::arg("pieces") = std::vector<Piece>{}, py::arg("flat_ends") = TubeSpec{}.flat_ends)
       .def_readwrite("radius", &TubeSpec::radius, doc::TubeSpec_radius)
       .def_readwrite("mass", &TubeSpec::mass, doc::TubeSpec_mass)
       .def_readwrite("density", &TubeSpec::density, doc::TubeSpec_density)
       .def_readwrite("segments", &TubeSpec::segments,
                      "A list of SegmentSpec; a copy, so assign it to change it.")
+      .def_readwrite("pieces", &TubeSpec::pieces,
+                     "A list of Piece, which makes a bar; a copy, so assign it to change it.")
+      .def_readwrite("flat_ends", &TubeSpec::flat_ends, doc::TubeSpec_flat_ends)
       .def(py::self == py::self);
   module.def(
       "draw_tube",
@@ -163,6 +179,7 @@ void bind_sensor(py::module_& module) {
   py::class_<Sensor>(module, "Sensor", doc::Sensor)
       .def(py::init<>())
       .def_readwrite("sigma", &Sensor::sigma, doc::Sensor_sigma)
+      .def_readwrite("column_correlation", &Sensor::column_correlation, doc::Sensor_column_correlation)
       .def_readwrite("dropout", &Sensor::dropout, doc::Sensor_dropout)
       .def_readwrite("edges", &Sensor::edges, doc::Sensor_edges)
       .def_readwrite("footprint", &Sensor::footprint, doc::Sensor_footprint)
@@ -186,6 +203,9 @@ void bind_sensor(py::module_& module) {
       .def_readwrite("trueness", &Sensor::trueness, doc::Sensor_trueness)
       .def_readwrite("trueness_length", &Sensor::trueness_length, doc::Sensor_trueness_length)
       .def_readwrite("kinect_noise", &Sensor::kinect_noise, doc::Sensor_kinect_noise)
+      .def_readwrite("quantization", &Sensor::quantization, doc::Sensor_quantization)
+      .def_readwrite("fill", &Sensor::fill, doc::Sensor_fill)
+      .def_readwrite("median", &Sensor::median, doc::Sensor_median)
       .def(py::self == py::self);
   module.def("sensor_preset", &sensor_preset, py::arg("name"), doc::sensor_preset);
   module.def("is_ideal", &is_ideal, py::arg("sensor"), doc::is_ideal);

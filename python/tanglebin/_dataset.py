@@ -10,7 +10,7 @@ from typing import Iterator, Sequence, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from tanglebin._core import CaseId, CaseRecord, Index, PointCloud, Recipe, Tube
+from tanglebin._core import CaseId, CaseRecord, Index, PointCloud, Recipe, SceneScore, Tube
 
 
 class Case:
@@ -64,6 +64,13 @@ class Case:
     def labels_of(self, scanner: str) -> NDArray[np.int32]:
         """Reads the label image of the scanner of this name."""
         return self._index.labels(self.id, scanner)
+
+    def score_labels(self, labels: str | os.PathLike[str], scanner: str | None = None) -> SceneScore:
+        """Scores the labels in a directory that are of its cloud, of all points on tubes (docs/benchmark.md).
+
+        The scanner is the first if none is named. mean_scores() sums up many.
+        """
+        return self._index.score_labels(self.id, labels, self._index.recipe.scanner_name if scanner is None else scanner)
 
     def __repr__(self) -> str:
         return f"<Case {self.id} of {self._index.directory}>"

@@ -3,6 +3,7 @@ import pickle
 
 import numpy as np
 import pytest
+from interrupted import Interruption
 
 import tanglebin
 
@@ -75,6 +76,18 @@ def test_the_papers_method_models_too(cloud, known):
     except tanglebin.InputError as error:
         pytest.skip(str(error))  # built without the Point Cloud Library
     assert tanglebin.score(cloud.labels, model.labels).micro_recall > 0.9
+
+
+@pytest.mark.parametrize("method", ["axis", "paper"])
+def test_modelling_takes_ctrl_c(cloud, known, method):
+    settings = tanglebin.ModelSettings(method)
+    try:
+        tanglebin.model_tubes(tanglebin.PointCloud(cloud.points[:100]), known, settings)
+    except tanglebin.InputError as error:
+        pytest.skip(str(error))  # built without the Point Cloud Library
+    with Interruption(at_the_latest=0.2), pytest.raises(KeyboardInterrupt):
+        while True:
+            tanglebin.model_tubes(cloud, known, settings)
 
 
 def test_a_known_scene_must_be_valid(cloud, known):

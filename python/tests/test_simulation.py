@@ -49,6 +49,23 @@ def test_settings_are_checked():
         tanglebin.TubeSpec(radius=-1)
 
 
+def test_a_bar_has_round_bends_and_flat_ends():
+    pieces = [tanglebin.Piece(length=0.1), tanglebin.Piece(bend=1.5, bend_radius=0.02), tanglebin.Piece(length=0.05)]
+    spec = tanglebin.TubeSpec(radius=0.006, segments=[], pieces=pieces, flat_ends=True)
+    assert spec.pieces == pieces and spec.flat_ends
+    bar = tanglebin.draw_tube(tanglebin.Rng(1), spec, 1)
+    assert bar.flat_ends and len(bar.nodes) > 10
+    first, last = np.diff(bar.nodes[:2], axis=0)[0], np.diff(bar.nodes[-2:], axis=0)[0]
+    cosine = first @ last / np.linalg.norm(first) / np.linalg.norm(last)
+    assert np.arccos(cosine) == pytest.approx(1.5, abs=1e-6)
+
+
+def test_a_sensor_has_the_terms_of_every_preset():
+    phoxi = tanglebin.sensor_preset("phoxi")
+    assert phoxi.column_correlation > 0 and phoxi.quantization > 0
+    assert phoxi.fill > 0 and phoxi.median % 2 == 1
+
+
 def long_settling():
     """Tubes that never come to rest, for so long that nobody waits for the end."""
     settings = tanglebin.SettleSettings()

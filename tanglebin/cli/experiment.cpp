@@ -127,14 +127,10 @@ struct Findings {
 
 void print_json(const ExperimentArguments& arguments, const ExperimentSummary& summary,
                 const Findings& findings) {
-  const RunProgress& run = summary.progress;
   nlohmann::ordered_json json;
   if (arguments.progress == ProgressStyle::json) json["event"] = "end";
   json["directory"] = arguments.out;
-  json["wanted"] = run.wanted;
-  json["found"] = run.found;
-  json["made"] = run.made;
-  json["failed"] = run.failed;
+  json.update(counts_json(summary.progress));
   json["complete"] = summary.is_complete();
   json["failed_runs"] = findings.failures.failed_runs;
   json["unscored_cases"] = findings.failures.cases_unscored;

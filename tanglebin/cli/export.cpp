@@ -43,15 +43,11 @@ std::string names_of_formats() {
 }
 
 void print_json(const ExportArguments& arguments, const ExportSummary& summary, double seconds) {
-  const RunProgress& run = summary.progress;
   nlohmann::ordered_json json;
   if (arguments.progress == ProgressStyle::json) json["event"] = "end";
   json["directory"] = arguments.out;
   json["format"] = arguments.format;
-  json["wanted"] = run.wanted;
-  json["found"] = run.found;
-  json["made"] = run.made;
-  json["failed"] = run.failed;
+  json.update(counts_json(summary.progress));
   json["complete"] = summary.is_complete;
   json["seconds"] = seconds;
   print_json_line(json);

@@ -10,15 +10,11 @@ namespace tanglebin::cli {
 namespace {
 
 nlohmann::ordered_json json_of(const FillReport& report, const FillSummary& summary, double seconds) {
-  const RunProgress& run = summary.progress;
-  nlohmann::ordered_json json{{"directory", report.directory},
-                              {"wanted", run.wanted},
-                              {"found", run.found},
-                              {"made", run.made},
-                              {"failed", run.failed},
-                              {"rejected", run.rejected},
-                              {"complete", summary.is_complete()},
-                              {"seconds", seconds}};
+  nlohmann::ordered_json json{{"directory", report.directory}};
+  json.update(counts_json(summary.progress));
+  json["rejected"] = summary.progress.rejected;
+  json["complete"] = summary.is_complete();
+  json["seconds"] = seconds;
   json["dataset"] = nullptr;
   if (const auto& dataset = summary.dataset) {
     json["dataset"] = {{"cases", dataset->cases},

@@ -84,14 +84,11 @@ void ProgressReport::print_progress(const RunProgress& progress) {
   if (Clock::now() - last_printed_ < std::chrono::seconds(1)) return;
   last_printed_ = Clock::now();
   const double elapsed = seconds_since(start_);
-  nlohmann::ordered_json event{{"event", "progress"},
-                               {"wanted", progress.wanted},
-                               {"found", progress.found},
-                               {"made", progress.made},
-                               {"failed", progress.failed},
-                               {"rejected", progress.rejected},
-                               {"rate", rate(progress, elapsed)},
-                               {"remaining_seconds", nullptr}};
+  nlohmann::ordered_json event{{"event", "progress"}};
+  event.update(counts_json(progress));
+  event["rejected"] = progress.rejected;
+  event["rate"] = rate(progress, elapsed);
+  event["remaining_seconds"] = nullptr;
   if (const auto seconds = remaining_.seconds(elapsed)) event["remaining_seconds"] = *seconds;
   print_event(event);
 }
@@ -108,6 +105,10 @@ void ProgressReport::print_end_of_case(const CaseEvent& event) {
     json["reason"] = event.failure;
   }
   print_event(json);
+}
+
+nlohmann::ordered_json counts_json(const RunProgress& run) {
+  return {{"wanted", run.wanted}, {"found", run.found}, {"made", run.made}, {"failed", run.failed}};
 }
 
 std::string left_over(const RunProgress& run) {

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "tanglebin/cli/progress.hpp"
@@ -53,6 +54,9 @@ private:
   RemainingTime remaining_;
   LogSchedule schedule_;
 };
+
+/// The counts of a run's cases: wanted, found, made, failed.
+nlohmann::ordered_json counts_json(const RunProgress& run);
 
 /// How many cases a run that was stopped has left: "; stopped, 3 to go".
 std::string left_over(const RunProgress& run);

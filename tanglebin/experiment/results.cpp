@@ -1,6 +1,8 @@
 #include "tanglebin/experiment/results.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 
 #include <algorithm>
 #include <chrono>
@@ -33,10 +35,19 @@ namespace fs = std::filesystem;
 constexpr const char* results_name = "results.jsonl";
 constexpr const char* generation_name = "generation.jsonl";
 
+// The file with this code: the program, or a shared library such as Python's module.
+std::string file_of_this_code() {
+  Dl_info info{};
+  void* object = nullptr;
+  dladdr1(reinterpret_cast<const void*>(&file_of_this_code), &info, &object, RTLD_DL_LINKMAP);
+  const std::string library = object ? static_cast<const link_map*>(object)->l_name : "";
+  return library.empty() ? "/proc/self/exe" : library;
+}
+
 // SHA-256 of the program that runs.
 const std::string& program_sha256() {
   static const std::string hash =
-      sha256(read_file("/proc/self/exe", std::numeric_limits<std::size_t>::max()));
+      sha256(read_file(file_of_this_code(), std::numeric_limits<std::size_t>::max()));
   return hash;
 }
 
@@ -51,14 +62,9 @@ Json run_json(const RunId& run) {
   return json;
 }
 
-std::optional<std::string> text_if_there(const JsonRecord& record, const std::string& field) {
-  if (!record.has(field)) return std::nullopt;
-  return record.text(field);
-}
-
 RunId run_of(const JsonRecord& record) {
   return {record.text("method"), id_of(record), record.number("ratio"),
-          text_if_there(record, "scanner").value_or("")};
+          record.text_if_there("scanner").value_or("")};
 }
 
 RunResult run_result(const JsonRecord& record) {
@@ -67,7 +73,7 @@ RunResult run_result(const JsonRecord& record) {
           .case_sha256 = record.text("case_sha256"),
           .micro_recall = failure ? 0 : record.number("micro_recall"),
           .failure = failure,
-          .labels_sha256 = text_if_there(record, "labels_sha256")};
+          .labels_sha256 = record.text_if_there("labels_sha256")};
 }
 
 Json result_head(const RunId& run, const CaseRecord& scene) {

@@ -48,6 +48,12 @@ std::string JsonRecord::text(const std::string& field) const {
   return text(field, at(field));
 }
 
+std::optional<std::string> JsonRecord::text_if_there(const std::string& field) const {
+  const auto found = json_.find(field);
+  if (found == json_.end() || found->is_null()) return std::nullopt;
+  return text(field, *found);
+}
+
 std::vector<std::string> JsonRecord::texts(const std::string& field) const {
   std::vector<std::string> result;
   for (const Json& value : list(field)) result.push_back(text(field, value));

@@ -34,6 +34,7 @@ public:
   const Json& json() const { return json_; }
 
   std::string text(const std::string& field) const;
+  std::optional<std::string> text_if_there(const std::string& field) const;  ///< none if missing or null
   std::vector<std::string> texts(const std::string& field) const;
   std::uint64_t whole_number(const std::string& field) const;
   int positive_int(const std::string& field) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,10 @@ void validate(const KnownScene& known, const ModelSettings& settings);
 /// not finite become null, and its labels and colours are ignored. The result depends only on the arguments.
 /// It says how sure each tube is, and what does not fit: is_refused() if the cloud cannot show this scene,
 /// for example because it is in millimetres. Throws InputError as validate() does. The messages name no file.
-Model model_tubes(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings = {});
+/// Calls `at_step` after each step of the method, and of the paper's after each cluster; what it throws ends
+/// the work.
+Model model_tubes(
+    const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings = {},
+    const std::function<void()>& at_step = [] {});
 
 }  // namespace tanglebin

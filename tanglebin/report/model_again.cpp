@@ -10,8 +10,8 @@
 namespace tanglebin {
 
 ModelAgain::ModelAgain(const std::filesystem::path& results, const Dataset& dataset,
-                       const ExperimentSettings& settings)
-    : dataset_(dataset), settings_(settings), scratch_(results / ".pictures.unfinished") {
+                       const ExperimentSettings& settings, const std::function<void()>& at_run)
+    : dataset_(dataset), settings_(settings), at_run_(at_run), scratch_(results / ".pictures.unfinished") {
   std::filesystem::remove_all(scratch_);
   make_directories(scratch_);
 }
@@ -23,6 +23,7 @@ ModelAgain::~ModelAgain() {
 
 std::optional<Model> ModelAgain::operator()(const Entry& entry, const SeenCase& seen,
                                             const CaseData& data) const {
+  at_run_();
   const auto& [scene, scanner] = seen;
   const RunId run{entry.name, scene, ratio_to_show(settings_.ratios), scanner};
   const KnownScene known = known_scene(recipe_seen(dataset_, seen), data, scene, settings_.scene);

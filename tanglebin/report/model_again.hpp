@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "tanglebin/experiment/modelled.hpp"
@@ -10,9 +11,10 @@ namespace tanglebin {
 /// Models runs of an experiment once more, to show what was found.
 class ModelAgain {
 public:
-  /// A command's files are in a directory of their own in `results`, for the lifetime of this object.
-  ModelAgain(const std::filesystem::path& results, const Dataset& dataset,
-             const ExperimentSettings& settings);
+  /// A command's files are in a directory of their own in `results`, for the lifetime of this object. Calls
+  /// `at_run` before each run.
+  ModelAgain(const std::filesystem::path& results, const Dataset& dataset, const ExperimentSettings& settings,
+             const std::function<void()>& at_run);
   ~ModelAgain();
   ModelAgain(const ModelAgain&) = delete;
   ModelAgain& operator=(const ModelAgain&) = delete;
@@ -24,6 +26,7 @@ public:
 private:
   const Dataset& dataset_;
   const ExperimentSettings& settings_;
+  const std::function<void()>& at_run_;
   std::filesystem::path scratch_;
 };
 

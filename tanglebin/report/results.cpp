@@ -50,11 +50,6 @@ std::vector<TimesRecord> read_generation(const fs::path& file) {
   return times;
 }
 
-// Empty if it is null or missing.
-std::string text_or_null(const JsonRecord& record, const std::string& field) {
-  return record.has(field) && !record.json().at(field).is_null() ? record.text(field) : "";
-}
-
 std::map<std::string, double> numbers_by_name(const JsonRecord& record, const std::string& field) {
   std::map<std::string, double> numbers;
   if (!record.has(field)) return numbers;
@@ -100,10 +95,10 @@ ExperimentRecord read_experiment(const fs::path& file) {
                               .cases = record.whole_number("cases"),
                               .recipe_sha256 = record.text("recipe_sha256"),
                               .recipe = recipe_in(record, file),
-                              .dataset = text_or_null(record, "dataset"),
-                              .dataset_digest = text_or_null(record, "dataset_digest"),
+                              .dataset = record.text_if_there("dataset").value_or(""),
+                              .dataset_digest = record.text_if_there("dataset_digest").value_or(""),
                               .parameters = numbers_by_name(record, "parameters"),
-                              .has_scene_file = !text_or_null(record, "scene").empty()};
+                              .has_scene_file = record.text_if_there("scene").value_or("") != ""};
   if (record.has("other_methods")) add_other_methods(record.object("other_methods"), experiment);
   return experiment;
 }
@@ -115,7 +110,7 @@ RunKey run_of(const JsonRecord& record) {
   return {.id = id_of(record),
           .method = record.text("method"),
           .ratio = record.number("ratio", least_ratio, 1),
-          .scanner = text_or_null(record, "scanner")};
+          .scanner = record.text_if_there("scanner").value_or("")};
 }
 
 RunScore score_of(const JsonRecord& record) {

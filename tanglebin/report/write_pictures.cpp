@@ -60,9 +60,9 @@ std::string draw_example(const Example& example, const RunId& run, const std::fi
 }  // namespace
 
 void write_pictures(const std::filesystem::path& directory, const Dataset& dataset,
-                    const ExperimentSettings& settings) {
+                    const ExperimentSettings& settings, const std::function<void()>& at_run) {
   make_directories(directory / "pictures");
-  const ModelAgain model_again(directory, dataset, settings);
+  const ModelAgain model_again(directory, dataset, settings, at_run);
   const ResultsSummary summary = summary_of(directory, settings.ratios);
   std::string lines;
   for (const Entry& entry : settings.methods) {

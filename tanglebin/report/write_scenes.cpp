@@ -118,9 +118,10 @@ std::vector<SceneToShow> scenes_to_show(const ResultsSummary& results, const std
 }
 
 void write_scenes(const std::filesystem::path& directory, const Dataset& dataset,
-                  const ExperimentSettings& settings, std::size_t count) {
+                  const ExperimentSettings& settings, std::size_t count,
+                  const std::function<void()>& at_run) {
   const ResultsSummary results = summary_of(directory, settings.ratios);
-  const ModelAgain model_again(directory, dataset, settings);
+  const ModelAgain model_again(directory, dataset, settings, at_run);
   std::string lines;
   for (const SceneToShow& scene : scenes_to_show(results, settings.methods, count)) {
     ShownCase shown(dataset, scene, results.ratio());

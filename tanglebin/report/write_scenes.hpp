@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,10 @@ inline constexpr std::size_t most_points_of_results = 25'000;
 
 /// Writes scenes.jsonl (docs/formats.md): scenes_to_show() at ratio_to_show() of the results in `directory`,
 /// with the points that the first method's filter left, and what every method found. Models these runs again,
-/// which gives the same models; a command that fails this time is left out. Throws InputError as
-/// run_experiment() does.
-void write_scenes(const std::filesystem::path& directory, const Dataset& dataset,
-                  const ExperimentSettings& settings, std::size_t count);
+/// which gives the same models; a command that fails this time is left out. Calls `at_run` before each of
+/// them; what it throws ends the work. Throws InputError as run_experiment() does.
+void write_scenes(
+    const std::filesystem::path& directory, const Dataset& dataset, const ExperimentSettings& settings,
+    std::size_t count, const std::function<void()>& at_run = [] {});
 
 }  // namespace tanglebin

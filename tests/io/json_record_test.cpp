@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 
 #include "tests/support/complaint.hpp"
@@ -40,6 +41,15 @@ TEST(ParseJson, NestedDeeperIsAnErrorHoweverDeepItIs) {
                 "dataset.json:3: found JSON nested too deep, expected at most 64 levels");
     }
   }
+}
+
+TEST(JsonRecord, TextThatIsMissingOrNullIsNone) {
+  const JsonRecord record(R"({"scanner":"left","dataset":null,"cases":3})", "experiment.json", 2);
+  EXPECT_EQ(record.text_if_there("scanner"), "left");
+  EXPECT_EQ(record.text_if_there("dataset"), std::nullopt);
+  EXPECT_EQ(record.text_if_there("digest"), std::nullopt);
+  EXPECT_EQ(complaint([&] { record.text_if_there("cases"); }),
+            "experiment.json:2: cases: found '3', expected text");
 }
 
 TEST(JsonRecord, NestedTooDeepIsAnErrorThatNamesTheFile) {

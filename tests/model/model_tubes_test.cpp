@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
@@ -87,6 +88,16 @@ TEST_P(ModelTubes, SaysWhatEachStepLeft) {
                         ? std::vector<std::string>{"filter", "segment", "fit", "join", "label"}
                         : std::vector<std::string>{"filter", "vote", "fragment", "join", "fit", "label"}));
   EXPECT_EQ(model.steps.front().count, model.filtered.size());
+}
+
+TEST_P(ModelTubes, EndsWithWhatIsThrownAtAStep) {
+  const PointCloud cloud = scanned(three_tubes());
+  const ModelSettings settings{.method = GetParam()};
+  std::size_t calls = 0;
+  const Model model = model_tubes(cloud, paper_scene(), settings, [&] { ++calls; });
+  EXPECT_GE(calls, model.steps.size());
+  const auto stop = [] { throw std::runtime_error("enough"); };
+  EXPECT_THROW(model_tubes(cloud, paper_scene(), settings, stop), std::runtime_error);
 }
 
 TEST_P(ModelTubes, GivesTheSameTwiceAndAnotherForAnotherSeed) {

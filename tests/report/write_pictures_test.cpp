@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "tanglebin/experiment/run_experiment.hpp"
@@ -45,6 +46,10 @@ TEST(WritePictures, DrawsTruthAndLabelsOfTheBestTheMedianAndTheWorstRun) {
 
   const auto before = test::files_below(results.path());
   write_pictures(results.path(), dataset, settings);
+  EXPECT_EQ(test::files_below(results.path()), before);
+
+  const auto stop = [] { throw std::runtime_error("enough"); };
+  EXPECT_THROW(write_pictures(results.path(), dataset, settings, stop), std::runtime_error);
   EXPECT_EQ(test::files_below(results.path()), before);
 }
 

@@ -126,10 +126,10 @@ std::size_t number_of_votes(const AxisSteps& steps) {
 }  // namespace
 
 AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double ratio, std::uint64_t seed,
-                        const AxisSettings& given) {
+                        const AxisSettings& given, const std::function<void()>& at_step) {
   AxisModel result;
   Model& model = result.model;
-  StepClock clock(model.steps);
+  StepClock clock(model.steps, at_step);
   const auto for_each_kind = [&](auto step) {
     for (std::size_t i = 0; i < known.kinds.size(); ++i) step(result.kinds[i], known.kinds[i]);
   };

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "tanglebin/model/axis/axis_settings.hpp"
@@ -36,7 +37,8 @@ struct AxisModel {
 /// the known radius. The votes of each visible piece of a tube form a thin curve. Pieces are joined by a
 /// maximum-likelihood matching and fitted to the points by least squares. For chains and trees. Arguments as
 /// for model_tubes(), but all in the support's frame (in_support_frame()).
-AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double ratio, std::uint64_t seed,
-                        const AxisSettings& given = {});
+AxisModel model_by_axes(
+    const PointCloud& cloud, const KnownScene& known, double ratio, std::uint64_t seed,
+    const AxisSettings& given = {}, const std::function<void()>& at_step = [] {});
 
 }  // namespace tanglebin

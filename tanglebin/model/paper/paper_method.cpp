@@ -13,10 +13,11 @@ namespace {
 
 std::vector<Cylinder> fit_clusters(const OrientedCloud& cloud,
                                    const std::vector<std::vector<std::size_t>>& clusters, double radius,
-                                   const FitSettings& settings) {
+                                   const FitSettings& settings, const std::function<void()>& at_step) {
   std::vector<Cylinder> cylinders;
   for (const auto& cluster : clusters) {
     std::ranges::move(fit_cylinders(cloud, cluster, radius, settings), std::back_inserter(cylinders));
+    at_step();
   }
   return cylinders;
 }
@@ -40,11 +41,12 @@ std::vector<std::int32_t> claimed_points(std::size_t points, const PaperModel& f
 void expect_paper_method() {}
 
 PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, double ratio,
-                             std::uint64_t seed, const PaperSettings& settings) {
+                             std::uint64_t seed, const PaperSettings& settings,
+                             const std::function<void()>& at_step) {
   const TubeKind& kind = known.kinds.at(0);
   PaperModel result;
   Model& model = result.model;
-  StepClock clock(model.steps);
+  StepClock clock(model.steps, at_step);
 
   // Section 4, the filtering step: the crop box of Section 6.2, random downsampling, normals.
   const Cropped cropped = crop(cloud, known.support, settings.filter);
@@ -58,7 +60,7 @@ PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, d
   clock.end_step("segment", result.clusters.size(), "clusters");
 
   // The fitting step.
-  result.cylinders = fit_clusters(result.filtered, result.clusters, kind.radius, settings.fit);
+  result.cylinders = fit_clusters(result.filtered, result.clusters, kind.radius, settings.fit, at_step);
   clock.end_step("fit", result.cylinders.size(), "cylinders");
 
   // The joining step.

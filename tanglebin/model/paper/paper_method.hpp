@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
@@ -32,7 +33,8 @@ void expect_paper_method();
 
 /// The paper's tube modelling algorithm (Section 4), for tubes that are chains of cylinders. Arguments as for
 /// model_tubes(). Throws InputError if built without the Point Cloud Library.
-PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, double ratio,
-                             std::uint64_t seed, const PaperSettings& settings = {});
+PaperModel model_as_in_paper(
+    const PointCloud& cloud, const KnownScene& known, double ratio, std::uint64_t seed,
+    const PaperSettings& settings = {}, const std::function<void()>& at_step = [] {});
 
 }  // namespace tanglebin

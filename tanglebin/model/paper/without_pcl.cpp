@@ -11,7 +11,8 @@ void expect_paper_method() {
 }
 
 PaperModel model_as_in_paper(const PointCloud& /*cloud*/, const KnownScene& /*known*/, double /*ratio*/,
-                             std::uint64_t /*seed*/, const PaperSettings& /*settings*/) {
+                             std::uint64_t /*seed*/, const PaperSettings& /*settings*/,
+                             const std::function<void()>& /*at_step*/) {
   expect_paper_method();
   return {};
 }
