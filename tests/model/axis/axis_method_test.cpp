@@ -173,6 +173,36 @@ TEST(AxisMethod, FindsNothingInABallThatIsNoTube) {
   EXPECT_THAT(modelled(cloud_of(ball)).model.tubes, IsEmpty());
 }
 
+// All lengths are in radii, but for how near to the bin a point is the bin's. A power of two scales exactly.
+TEST(AxisMethod, DoesNotDependOnTheScale) {
+  const std::vector<Tube> tubes = {
+      test::straight_tube(1, 0), test::chain(2, 0.0125, {{0.05, -0.15, 0.04}, {0.02, 0.15, 0.04}}),
+      test::chain(3, 0.0125, {{-0.2, -0.1, 0.0125}, {-0.1, 0, 0.0125}, {-0.15, 0.12, 0.0125}})};
+  PointCloud cloud = scanned(tubes);
+  const Vector3d sensor = paper_scene().camera.pose.translation();
+  Rng rng(1);
+  for (Eigen::Vector3f& point : cloud.points) {
+    const Vector3d ray = (point.cast<double>() - sensor).normalized();
+    point += (0.0005 * uniform_real(rng, -1, 1) * ray).cast<float>();
+  }
+  const auto labels_at = [&](float scale) {
+    PointCloud scaled = cloud;
+    for (Eigen::Vector3f& point : scaled.points) point *= scale;
+    KnownScene known = paper_scene();
+    AxisSettings settings;
+    for (double* length : {&known.support.bin.length, &known.support.bin.width, &known.support.bin.height,
+                           &known.support.bin.wall, &known.kinds[0].radius, &settings.filter.margin,
+                           &settings.filter.overhang})
+      *length *= scale;
+    known.camera.pose.translation() *= scale;
+    known.kinds[0].segments = {{1, 2, 0.5 * scale}};
+    return model_by_axes(scaled, known, 1, 1, settings).model.labels;
+  };
+  const std::vector<std::int32_t> labels = labels_at(1);
+  EXPECT_GT(score(cloud.labels, labels).micro_recall, 0.99);
+  for (const float scale : {0.25F, 0.5F, 2.0F, 4.0F}) EXPECT_EQ(labels_at(scale), labels) << scale;
+}
+
 TEST(AxisMethod, FindsNothingInNoise) {
   Rng rng(1);
   std::vector<Eigen::Vector3f> noise;

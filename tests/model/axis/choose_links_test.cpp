@@ -69,6 +69,22 @@ TEST(ChooseLinks, AreExchangedForOnesThatAreHeavierTogether) {
   }
 }
 
+// Two pieces that would be a chain of 30 cm, seen from end to end: of tubes of half a metre it is none.
+TEST(ChooseLinks, MakeNoTubeThatLacksWhatWouldHaveBeenSeen) {
+  std::vector<Fragment> pieces = {straight_fragment({-0.15, 0, 0.05}, {-0.05, 0, 0.05}),
+                                  straight_fragment({0.11, 0.05, 0.05}, {0.21, 0.09, 0.05})};
+  const auto joined = [&](double length, double hidden) {
+    pieces[0].ends[0].hidden = pieces[1].ends[1].hidden = hidden;
+    pieces[0].ends[1].hidden = pieces[1].ends[0].hidden = 0.4;
+    TubeKind kind = chain_of(length);
+    kind.length_min = length;
+    return !chosen_of(pieces, kind).empty();
+  };
+  EXPECT_TRUE(joined(0.4, 0));
+  EXPECT_TRUE(joined(0.8, 0.3));
+  EXPECT_FALSE(joined(0.8, 0));
+}
+
 TEST(ChooseLinks, CloseNoTube) {
   // Four sides of a square: three joins make it an open chain.
   const double s = 0.08;

@@ -38,6 +38,21 @@ std::vector<Fragment> fragments_of(const AxisVotes& votes, bool with_branches = 
   return find_fragments(votes, radius, with_branches, {});
 }
 
+// Of a tube that has 50 votes on a radius of length, ten more in one place elsewhere.
+TEST(Fragments, OfADenseCloudAreNoSpecks) {
+  const auto with_speck = [](int votes_of_speck) {
+    AxisVotes votes;
+    for (int i = 0; i < 5; ++i) add_axis(votes, {-0.1, 0.02, 0.05}, {0.1, 0.02, 0.05});
+    for (int i = 0; i < votes_of_speck; ++i) {
+      votes.votes.emplace_back(0.001F * static_cast<float>(i % 3), -0.1F, 0.05F);
+      votes.normals.emplace_back(0, 0.6F, 0.8F);
+    }
+    return fragments_of(votes);
+  };
+  EXPECT_THAT(with_speck(10), SizeIs(1));
+  EXPECT_THAT(with_speck(40), SizeIs(2));
+}
+
 TEST(Fragments, EndWhereTheVotesEndAndPointOutwards) {
   const Vector3d from(-0.1, 0.02, 0.05);
   const Vector3d to(0.1, -0.03, 0.08);
