@@ -9,6 +9,10 @@
 
 #include <Eigen/Core>
 #include <boost/version.hpp>
+#include <limits>
+
+#include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/io/read_file.hpp"
 
 namespace tanglebin {
 namespace {
@@ -39,6 +43,12 @@ Versions versions() {
       {"glibc", gnu_get_libc_version()},
       {"machine", machine()},
   };
+}
+
+const std::string& program_sha256() {
+  static const std::string hash =
+      sha256(read_file("/proc/self/exe", std::numeric_limits<std::size_t>::max()));
+  return hash;
 }
 
 }  // namespace tanglebin

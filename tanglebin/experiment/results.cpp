@@ -15,6 +15,7 @@
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/dataset/dataset_summary.hpp"
 #include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/dataset/versions.hpp"
 #include "tanglebin/experiment/measures.hpp"
 #include "tanglebin/experiment/tables.hpp"
 #include "tanglebin/io/read_file.hpp"
@@ -32,13 +33,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* results_name = "results.jsonl";
 constexpr const char* generation_name = "generation.jsonl";
-
-// SHA-256 of the program that runs.
-const std::string& program_sha256() {
-  static const std::string hash =
-      sha256(read_file("/proc/self/exe", std::numeric_limits<std::size_t>::max()));
-  return hash;
-}
 
 // Separates the lines of a case in the journal; inside the lines, JSON escapes tabs.
 constexpr char separator = '\t';
@@ -137,6 +131,7 @@ Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings)
   json["other_methods"] = others_json(settings.methods);
   json["ratios"] = settings.ratios;
   json["seed"] = settings.model.seed;
+  if (!settings.profile.empty()) json["profile"] = settings.profile;
   json["parameters"] = changed_parameters(settings.model);
   json["recipe_sha256"] = dataset.recipe_sha256;
   json["scene"] = scene_text(settings.scene);
