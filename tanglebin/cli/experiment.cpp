@@ -139,8 +139,8 @@ std::set<std::string> profiles_of(const ExperimentSettings& settings) {
 }
 
 // In which ways the first of the cases of each set is not what a profile was made for.
-void print_doubts(const ExperimentSettings& settings, const Dataset& dataset,
-                  const std::vector<CaseId>& wanted) {
+void print_doubts_of_profiles(const ExperimentSettings& settings, const Dataset& dataset,
+                              const std::vector<CaseId>& wanted) {
   for (const std::string& file : profiles_of(settings)) {
     const Profile profile = read_profile(file);
     std::set<std::string> sets;
@@ -241,7 +241,7 @@ void experiment(const ExperimentArguments& arguments) {
   const Dataset dataset = read_dataset(arguments.dataset);
   std::vector<CaseId> wanted = chosen(arguments.many, cases(dataset), arguments.dataset);
   if (const std::optional<Shard> shard = shard_of(arguments.shard)) wanted = part_of(*shard, wanted);
-  print_doubts(settings, dataset, wanted);
+  print_doubts_of_profiles(settings, dataset, wanted);
   const Clock::time_point start = Clock::now();
   const ExperimentSummary summary = [&] {
     ProgressReport progress(arguments.progress);

@@ -117,7 +117,7 @@ TEST(Calibration, SaysIfARecipeHasNoValidScene) {
   const TemporaryDirectory directory;
   Recipe recipe = test::finely_seen_recipe();
   recipe.attempts = 1;
-  recipe.sets[0].tubes = {90};
+  recipe.settle.time_limit = 0.01;
   EXPECT_THAT(complaint([&] { calibrate(recipe, quick(10), directory / "run"); }),
               HasSubstr("no valid scene: "));
 }
