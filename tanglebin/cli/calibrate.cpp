@@ -8,11 +8,13 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -96,7 +98,7 @@ public:
   CalibrationReport& operator=(const CalibrationReport&) = delete;
 
   void show(const CalibrationProgress& progress) {
-    if (!begun_at_) begun_at_ = progress.evaluations;
+    if (!search_begun_) search_begun_ = {Clock::now(), progress.evaluations};
     if (is_terminal_) {
       print_error("\r{} \x1b[K", text(progress));
       is_shown_ = true;
@@ -113,11 +115,12 @@ private:
     return std::min(1.0, std::max(of_time, of_evaluations));
   }
 
-  // At the pace of this run, which began with what earlier ones had done.
-  double seconds_left(const CalibrationProgress& progress) const {
-    const double elapsed = seconds_since(begun_);
-    if (budget_.time) return std::max(0.0, budget_.time->count() - elapsed);
-    const double pace = elapsed / static_cast<double>(progress.evaluations - *begun_at_);
+  // At the pace of this run's search, which began with what earlier ones had done.
+  std::optional<double> seconds_left(const CalibrationProgress& progress) const {
+    if (budget_.time) return budget_.time->count() - seconds_since(begun_);
+    const auto& [begun, done] = *search_begun_;
+    if (progress.evaluations == done) return std::nullopt;
+    const double pace = seconds_since(begun) / static_cast<double>(progress.evaluations - done);
     return pace * static_cast<double>(budget_.evaluations - progress.evaluations);
   }
 
@@ -125,15 +128,14 @@ private:
     std::string result = fmt::format("{}: {} evaluations", progress.step, progress.evaluations);
     if (progress.before > 0)
       result += fmt::format(", {:.4f}, at first {:.4f}", progress.best, progress.before);
-    const bool has_pace = budget_.time || progress.evaluations > *begun_at_;
-    if (has_pace && share(progress) < 1)
-      result += fmt::format(", at most {} left", duration_text(seconds_left(progress)));
+    const std::optional<double> left = seconds_left(progress);
+    if (left && share(progress) < 1) result += fmt::format(", at most {} left", duration_text(*left));
     return result;
   }
 
   CalibrationBudget budget_;
   Clock::time_point begun_ = Clock::now();
-  std::optional<std::size_t> begun_at_{};
+  std::optional<std::pair<Clock::time_point, std::size_t>> search_begun_{};  ///< with the evaluations by then
   LogSchedule schedule_{};
   bool is_terminal_ = isatty(STDERR_FILENO) != 0;
   bool is_shown_ = false;
@@ -194,18 +196,16 @@ void print_sensitivities(std::vector<Sensitivity> sensitivities) {
   }
 }
 
-void print_estimate(const std::string& name, const Estimate& estimate) {
-  print_out("  {:<10} {:>+8.4f}   {:+.4f} to {:+.4f}\n", name, estimate.mean, estimate.low, estimate.high);
-}
-
 void print_text(const CalibrateArguments& arguments, const Calibration& calibration, double seconds) {
   print_sensitivities(calibration.sensitivities);
   const Reached& reached = *calibration.profile.reached;
   print_out("{} on {} scenes that it was not calibrated on, with 95 % intervals\n", reached.objective,
             reached.scenes);
-  print_estimate("before", reached.before);
-  print_estimate("after", reached.after);
-  print_estimate("difference", reached.difference);
+  const auto& [before, after, difference] = std::tie(reached.before, reached.after, reached.difference);
+  print_out("  before      {:>7.4f}   {:.4f} to {:.4f}\n", before.mean, before.low, before.high);
+  print_out("  after       {:>7.4f}   {:.4f} to {:.4f}\n", after.mean, after.low, after.high);
+  print_out("  difference {:>+8.4f}   {:+.4f} to {:+.4f}\n", difference.mean, difference.low,
+            difference.high);
   if (!calibration.is_better) print_out("nothing found that is better there: the start is kept\n");
   print_out("{}: {} parameters, {} evaluations, {:.1f} s\n", arguments.out,
             calibration.profile.parameters.size(), calibration.evaluations, seconds);

@@ -215,9 +215,10 @@ std::optional<std::string> doubt_of(const MadeFor& made_for, const Camera& camer
       is_within(camera.fx, made_for.focal_length, made_for.focal_length))
     return std::nullopt;
   return fmt::format(
-      "made for the scanner {} with images {} pixels wide and a focal length of {:.5g} pixels, not {} pixels "
-      "wide and {:.5g}",
-      excerpt(made_for.scanner), made_for.image_width, made_for.focal_length, camera.width, camera.fx);
+      "made for {} with images {} pixels wide and a focal length of {:.5g} pixels, not {} pixels wide and "
+      "{:.5g}",
+      made_for.scanner.empty() ? "a camera" : made_for.scanner, made_for.image_width, made_for.focal_length,
+      camera.width, camera.fx);
 }
 
 }  // namespace
@@ -260,7 +261,7 @@ void expect_for(const Profile& profile, const std::vector<Method>& methods, cons
 void write_profile(std::ostream& out, const Profile& profile, const std::string& title) {
   out << fmt::format("# {}\n\n{} = {}\n", printable(title), format_key, profile_format);
   if (profile.method) out << fmt::format("{} = \"{}\"\n", method_key, name_of(*profile.method));
-  out << '\n';
+  if (!profile.parameters.empty()) out << '\n';
   write_parameters(out, profile.parameters);
   if (profile.made_for) write_made_for(out, *profile.made_for);
   if (profile.reached) write_reached(out, *profile.reached);

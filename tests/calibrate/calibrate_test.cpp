@@ -89,7 +89,7 @@ TEST(Calibration, NeverGivesAProfileThatIsWorseThanTheDefaults) {
   const Reached& reached = *calibration->profile.reached;
   EXPECT_GE(reached.after.mean, reached.before.mean);
   EXPECT_EQ(calibration->is_better, reached.difference.mean > 0);
-  if (!calibration->is_better) EXPECT_TRUE(calibration->profile.parameters.empty());
+  EXPECT_EQ(calibration->is_better, !calibration->profile.parameters.empty());
 }
 
 TEST(Calibration, ComesBackFromAStartThatFindsNothing) {

@@ -6,17 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tanglebin/base/random.hpp"
+#include "tanglebin/base/counter_random.hpp"
 
 namespace tanglebin {
 namespace {
 
-using testing::AllOf;
 using testing::Each;
-using testing::Gt;
 using testing::IsEmpty;
-using testing::Key;
-using testing::Lt;
 using testing::Not;
 
 Parameter parameter_named(const std::string& name) {
@@ -74,9 +70,9 @@ TEST(Places, AreTheInverseOfValues) {
 
 TEST(Places, OfDefaultsLeadBackToThem) {
   for (const Parameter& parameter : declared_parameters()) {
-    if (parameter.range)
-      EXPECT_EQ(value_at(parameter, place_of(parameter, parameter.standard)), parameter.standard)
-          << parameter.name;
+    if (!parameter.range) continue;
+    EXPECT_EQ(value_at(parameter, place_of(parameter, parameter.standard)), parameter.standard)
+        << parameter.name;
   }
 }
 
