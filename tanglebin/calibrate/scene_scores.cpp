@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/dataset/seen_case.hpp"
@@ -54,14 +56,13 @@ std::map<std::string, double> numbers_in(const JsonRecord& record) {
 }  // namespace
 
 SceneScores::SceneScores(std::string part, const Dataset& dataset, std::vector<CaseId> scenes,
-                         const ScoringSettings& settings, const Journal& journal,
-                         const WorkersObserver& observer)
+                         const ScoringSettings& settings, const Journal& journal, WorkersObserver observer)
     : part_(std::move(part)),
       dataset_(dataset),
       scenes_(std::move(scenes)),
       settings_(settings),
       journal_(journal),
-      observer_(observer) {
+      observer_(std::move(observer)) {
   read_journal();
 }
 
@@ -95,18 +96,18 @@ void SceneScores::make(const Parameters& parameters, const std::vector<CaseId>& 
   const auto score = [&](std::size_t task) {
     return fmt::format("{}", score_of_scene(dataset_, scenes[task], settings_, model_settings));
   };
+  std::map<std::string, double> made;
   WorkersObserver observer = observer_;
   observer.done = [&](const std::vector<TaskResult>& results) {
-    std::map<std::string, double> scores;
-    for (const auto& [task, text, seconds] : results)
-      scores.emplace(name_of(scenes[task]), to_number<double>(text).value_or(0));
-    keep(parameters, scores);
+    for (const auto& [task, text, seconds] : results) {
+      const bool is_in_time = seconds <= std::chrono::duration<double>(settings_.scene_limit).count();
+      made[name_of(scenes[task])] = is_in_time ? to_number<double>(text).value_or(0) : 0;
+    }
   };
-  observer.failed = [&](const TaskFailure& failure) {
-    keep(parameters, {{name_of(scenes[failure.task]), 0.0}});
-  };
-  if (!run_in_workers(settings_.jobs, scenes.size(), score, observer, settings_.scene_limit))
-    throw CalibrationStopped();
+  observer.failed = [&](const TaskFailure& failure) { made[name_of(scenes[failure.task])] = 0; };
+  const bool is_done = run_in_workers(settings_.jobs, scenes.size(), score, observer, settings_.scene_limit);
+  keep(parameters, made);
+  if (!is_done) throw CalibrationStopped();
 }
 
 void SceneScores::keep(const Parameters& parameters, const std::map<std::string, double>& scores) {

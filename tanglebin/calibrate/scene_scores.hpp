@@ -34,9 +34,9 @@ class CalibrationStopped : public std::exception {};
 /// found, a crash or too long a time, scores 0. Each score is made once: it is kept in the journal.
 class SceneScores {
 public:
-  /// `part` tells the journal's lines from those of other datasets. All but `part` must outlive this.
+  /// `part` tells the journal's lines from those of other datasets. Dataset and journal must outlive this.
   SceneScores(std::string part, const Dataset& dataset, std::vector<CaseId> scenes,
-              const ScoringSettings& settings, const Journal& journal, const WorkersObserver& observer);
+              const ScoringSettings& settings, const Journal& journal, WorkersObserver observer);
 
   std::size_t scenes() const { return scenes_.size(); }
 
@@ -57,9 +57,9 @@ private:
   std::string part_;
   const Dataset& dataset_;
   std::vector<CaseId> scenes_;
-  const ScoringSettings& settings_;
+  ScoringSettings settings_;
   const Journal& journal_;
-  const WorkersObserver& observer_;
+  WorkersObserver observer_;
   std::map<Key, double> known_{};
   std::set<Key> asked_{};
 };

@@ -44,13 +44,13 @@ std::string first_lines(const std::string& text, std::ptrdiff_t count) {
 TEST(Calibration, GivesTheSameProfileWhereverItWasInterrupted) {
   const TemporaryDirectory directory;
   const Recipe recipe = test::finely_seen_recipe();
-  const std::optional<Calibration> whole = calibrate(recipe, quick(60), directory / "run");
+  const std::optional<Calibration> whole = calibrate(recipe, quick(40), directory / "run");
   ASSERT_TRUE(whole);
   const std::filesystem::path journal = directory / "run/journal.jsonl";
   const std::string lines = bytes_of(journal);
   // As a kill leaves it: with a line that is not whole.
-  write_bytes(journal, first_lines(lines, 20) + R"({"part":"trai)");
-  const std::optional<Calibration> resumed = calibrate(recipe, quick(60), directory / "run");
+  write_bytes(journal, first_lines(lines, 5) + R"({"part":"trai)");
+  const std::optional<Calibration> resumed = calibrate(recipe, quick(40), directory / "run");
   ASSERT_TRUE(resumed);
   EXPECT_EQ(text_of_profile(resumed->profile), text_of_profile(whole->profile));
   EXPECT_EQ(resumed->evaluations, whole->evaluations);
@@ -84,7 +84,7 @@ TEST(Calibration, SaysWhatTheProfileIsForAndWhatItReached) {
 TEST(Calibration, NeverGivesAProfileThatIsWorseThanTheDefaults) {
   const TemporaryDirectory directory;
   const std::optional<Calibration> calibration =
-      calibrate(test::finely_seen_recipe(), quick(100), directory / "run");
+      calibrate(test::finely_seen_recipe(), quick(40), directory / "run");
   ASSERT_TRUE(calibration);
   const Reached& reached = *calibration->profile.reached;
   EXPECT_GE(reached.after.mean, reached.before.mean);
@@ -94,7 +94,7 @@ TEST(Calibration, NeverGivesAProfileThatIsWorseThanTheDefaults) {
 
 TEST(Calibration, ComesBackFromAStartThatFindsNothing) {
   const TemporaryDirectory directory;
-  CalibrationSettings settings = quick(400);
+  CalibrationSettings settings{.scenes = 2, .budget = {.evaluations = 200}};
   settings.start = {{"axis.fragment.points_min", 2000}};
   const std::optional<Calibration> calibration =
       calibrate(test::finely_seen_recipe(), settings, directory / "run");
@@ -171,8 +171,8 @@ TEST(SceneScores, AreNoBetterIfTheFilterDropsTubes) {
   const Journal journal(directory.path());
   const ScoringSettings settings;
   SceneScores scores("training", made->dataset, made->scenes, settings, journal, {});
-  // Half of a tube's points are nearer to the floor than this.
-  EXPECT_LT(scores.scores({{"axis.filter.margin", 0.015}}, 0, 1)[0], 0.95);
+  // Most points of a tube on the floor are nearer to it than this.
+  EXPECT_LT(scores.scores({{"axis.filter.margin", 0.02}}, 0, 1)[0], 0.95);
 }
 
 TEST(Objectives, AreFoundByTheirNames) {

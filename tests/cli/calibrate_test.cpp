@@ -29,7 +29,7 @@ protected:
 
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
   std::string arguments(const std::string& profile, const std::string& options = {}) const {
-    return "calibrate " + path("recipe.toml") + " --out " + path(profile) + " --scenes 4 --budget 60 " +
+    return "calibrate " + path("recipe.toml") + " --out " + path(profile) + " --scenes 4 --budget 20 " +
            options;
   }
 

@@ -95,7 +95,8 @@ TEST(Profile, SaysWhatIsWrongWithWhatItWasMadeFor) {
               HasSubstr("found 'best', expected paper, axis"));
   EXPECT_THAT(with("image_width = 1920", "image_width = 0"),
               HasSubstr("made_for.image_width: found 0, expected a number above 0"));
-  EXPECT_THAT(with("scanner = ", "scaner = "), HasSubstr("made_for.scaner"));
+  EXPECT_THAT(with("scanner = ", "scaner = "),
+              HasSubstr("made_for: unknown key 'scaner', did you mean 'scanner'?"));
   EXPECT_THAT(with("radius_min = 0.004\n", ""), HasSubstr("made_for.tube[0].radius_min: is missing"));
   EXPECT_THAT(with("low = 0.88, ", ""), HasSubstr("reached.before.low: is missing"));
   EXPECT_THAT(with("\"ab12\"", "\"ab\\n12\""), HasSubstr("expected text without quotes"));
