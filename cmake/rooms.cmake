@@ -47,7 +47,7 @@ tanglebin_room(runs         TARGET datasets    ROOMS base io)
 tanglebin_room(dataset      TARGET datasets    ROOMS base geometry cloud io settle scan recipe simulate runs)
 tanglebin_room(experiment   TARGET datasets    ROOMS base geometry cloud io model model/scene model/axis scene score recipe
                                                      runs dataset)
-tanglebin_room(calibrate    TARGET datasets    ROOMS base io model profile recipe runs dataset experiment)
+tanglebin_room(calibrate    TARGET datasets    ROOMS base geometry io model profile scan recipe runs dataset experiment)
 tanglebin_room(report       TARGET datasets    ROOMS base geometry cloud io model/scene model/axis model/paper score
                                                      scan recipe dataset experiment)
 tanglebin_room(export       TARGET exports     ROOMS base geometry cloud io settle scan recipe runs dataset)

@@ -12,9 +12,11 @@
 #include "tanglebin/calibrate/learn_links_once.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/dataset/versions.hpp"
+#include "tanglebin/geometry/camera.hpp"
 #include "tanglebin/io/json_record.hpp"
 #include "tanglebin/io/read_file.hpp"
 #include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/scan/sensor.hpp"
 
 namespace tanglebin {
 namespace {
@@ -87,8 +89,18 @@ std::vector<TubesMadeFor> tubes_of(const CalibrationScenes& scenes) {
   return tubes;
 }
 
+// The preset that the first scanner is; empty if it is none.
+std::string preset_of(const Recipe& recipe) {
+  for (const char* name : {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1", "phoxi"}) {
+    const Camera camera = camera_preset(name);
+    const bool is_camera = camera.width == recipe.camera.width && camera.fx == recipe.camera.fx;
+    if (is_camera && sensor_preset(name) == recipe.sensor) return name;
+  }
+  return {};
+}
+
 MadeFor purpose_of(const Recipe& recipe, const CalibrationScenes& training) {
-  return {.scanner = recipe.scanner_name,
+  return {.scanner = preset_of(recipe),
           .image_width = recipe.camera.width,
           .focal_length = recipe.camera.fx,
           .bin = recipe.bin,
@@ -134,6 +146,7 @@ private:
     if (is_budgeted_) expect_budget();
     std::vector<double> result = training_scores_.scores(parameters, first, count);
     progress_.evaluations = training_scores_.asked();
+    if (race_) progress_.best = race_->score();
     return result;
   }
 
@@ -146,9 +159,10 @@ private:
   // The best parameters, for the scenes to calibrate on.
   Parameters found() {
     progress_.step = "scoring the start";
-    Race race([&](const Parameters& parameters, std::size_t first,
-                  std::size_t count) { return scores(parameters, first, count); },
-              training_scores_.scenes(), settings_.start);
+    const Scorer scorer = [this](const Parameters& parameters, std::size_t first, std::size_t count) {
+      return scores(parameters, first, count);
+    };
+    Race& race = race_.emplace(scorer, training_scores_.scenes(), settings_.start);
     progress_.before = progress_.best = race.score();
     try {
       is_budgeted_ = true;
@@ -207,6 +221,7 @@ private:
   SceneScores training_scores_;
   SceneScores validation_scores_;
   CalibrationProgress progress_{};
+  std::optional<Race> race_{};
   std::vector<Sensitivity> sensitivities_{};
   bool is_budgeted_ = false;
 };

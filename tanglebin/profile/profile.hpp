@@ -30,7 +30,7 @@ struct TubesMadeFor {
 
 /// What a profile was calibrated for, and by what.
 struct MadeFor {
-  std::string scanner{};    ///< its preset
+  std::string scanner{};    ///< its preset; empty if it is none
   int image_width = 0;      ///< of the scanner's camera, pixels
   double focal_length = 0;  ///< the same
   Bin bin{};                ///< its inner size

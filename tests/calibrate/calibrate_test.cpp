@@ -74,6 +74,7 @@ TEST(Calibration, SaysWhatTheProfileIsForAndWhatItReached) {
   EXPECT_EQ(profile.method, Method::axis);
   EXPECT_EQ(profile.made_for->bin, recipe.bin);
   EXPECT_EQ(profile.made_for->image_width, 480);
+  EXPECT_EQ(profile.made_for->scanner, "");  // no preset has so few pixels
   ASSERT_EQ(profile.made_for->tubes.size(), 1U);
   EXPECT_EQ(profile.made_for->tubes[0].radius_max, 0.0125);
   EXPECT_EQ(profile.reached->objective, "micro_recall");
