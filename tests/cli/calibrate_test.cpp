@@ -28,9 +28,8 @@ protected:
   }
 
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
-  std::string arguments(const std::string& profile, const std::string& options = {}) const {
-    return "calibrate " + path("recipe.toml") + " --out " + path(profile) + " --scenes 4 --budget 20 " +
-           options;
+  std::string arguments(const std::string& profile, const std::string& options = "--budget 20") const {
+    return "calibrate " + path("recipe.toml") + " --out " + path(profile) + " --scenes 4 " + options;
   }
 
   TemporaryDirectory directory_;
@@ -54,12 +53,12 @@ TEST_F(CalibrateCommand, WritesAProfileThatModelReads) {
 TEST_F(CalibrateCommand, GoesOnAfterAKillToTheSameBytes) {
   ASSERT_EQ(run_program(arguments("whole.toml")).status, 0);
   run_shell("timeout -s KILL 0.7 " TANGLEBIN_PROGRAM " " + arguments("killed.toml"));
-  ASSERT_EQ(run_program(arguments("killed.toml", "--jobs 1")).status, 0);
+  ASSERT_EQ(run_program(arguments("killed.toml", "--budget 20 --jobs 1")).status, 0);
   EXPECT_EQ(bytes_of(path("killed.toml")), bytes_of(path("whole.toml")));
 }
 
 TEST_F(CalibrateCommand, PrintsTheResultAsJson) {
-  const auto json = nlohmann::json::parse(run_program(arguments("mine.toml", "--json")).out);
+  const auto json = nlohmann::json::parse(run_program(arguments("mine.toml", "--budget 20 --json")).out);
   EXPECT_GE(json.at("after").at("mean"), json.at("before").at("mean"));
   EXPECT_FALSE(json.at("evaluations").get<int>() == 0);
 }
@@ -71,8 +70,8 @@ TEST_F(CalibrateCommand, StopsAtATime) {
 
 TEST_F(CalibrateCommand, StartsFromAProfileIfAsked) {
   write_bytes(path("start.toml"), "format = 1\naxis.fragment.points_min = 2000\n");
-  const auto json =
-      nlohmann::json::parse(run_program(arguments("mine.toml", "--json --start " + path("start.toml"))).out);
+  const auto json = nlohmann::json::parse(
+      run_program(arguments("mine.toml", "--budget 20 --json --start " + path("start.toml"))).out);
   EXPECT_LT(json.at("before").at("mean"), 0.5);
 }
 
