@@ -268,7 +268,7 @@ void add_calibrate(CLI::App& app) {
   add_jobs_option(*command, arguments->jobs);
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->footer(
-      "Example:\n  tanglebin calibrate recipes/set-a.toml --out mine.toml --scenes 10 --budget 200\n"
+      "Example:\n  tanglebin calibrate recipes/set-a.toml --out mine.toml --scenes 5 --budget 1000\n"
       "Ctrl-C stops it; run the same command again to go on.\n"
       "Exit status: 130 if interrupted.\n"
       "Guide: docs/calibration.md.");
