@@ -7,7 +7,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tanglebin)
 
 # What programs outside may include; tests/package compiles each by itself.
 set(public_headers
-  base/error base/random
+  base/error base/estimate base/random
   geometry/bin geometry/camera geometry/capsule geometry/intersect geometry/labels geometry/mass_properties geometry/ray
   geometry/segment geometry/support geometry/tube
   cloud/cloud cloud/images cloud/label_colors

@@ -33,7 +33,7 @@ tanglebin_room(model/locate TARGET axis        ROOMS base geometry cloud)
 tanglebin_room(model/axis   TARGET axis        ROOMS base geometry cloud model/scene)
 tanglebin_room(model/paper  TARGET paper       ROOMS base geometry cloud model/scene)
 tanglebin_room(model        TARGET modelling   ROOMS base geometry cloud model/scene model/axis model/paper)
-tanglebin_room(profile      TARGET modelling   ROOMS base io model)
+tanglebin_room(profile      TARGET modelling   ROOMS base geometry io model model/scene)
 tanglebin_room(scene        TARGET modelling   ROOMS base geometry cloud io model/scene model/locate model/axis)
 tanglebin_room(score        TARGET modelling   ROOMS base geometry cloud)
 
@@ -47,8 +47,9 @@ tanglebin_room(runs         TARGET datasets    ROOMS base io)
 tanglebin_room(dataset      TARGET datasets    ROOMS base geometry cloud io settle scan recipe simulate runs)
 tanglebin_room(experiment   TARGET datasets    ROOMS base geometry cloud io model model/scene model/axis scene score recipe
                                                      runs dataset)
+tanglebin_room(calibrate    TARGET datasets    ROOMS base geometry io model profile scan recipe runs dataset experiment)
 tanglebin_room(report       TARGET datasets    ROOMS base geometry cloud io model/scene model/axis model/paper score
                                                      scan recipe dataset experiment)
 tanglebin_room(export       TARGET exports     ROOMS base geometry cloud io settle scan recipe runs dataset)
 tanglebin_room(cli          TARGET program     ROOMS base geometry cloud io model model/scene model/axis model/paper profile scene score
-                                                     scan recipe runs dataset experiment report export)
+                                                     scan recipe runs dataset experiment calibrate report export)

@@ -1,4 +1,4 @@
-// Any input is either a profile, whose parameters must read back as the same after writing, or an InputError.
+// Any input is either a profile, which must read back as the same after writing, or an InputError.
 
 #include <cstddef>
 #include <cstdint>
@@ -6,17 +6,14 @@
 #include <string>
 
 #include "fuzz/expect_same_again.hpp"
-#include "tanglebin/model/parameters.hpp"
 #include "tanglebin/profile/profile.hpp"
 
 namespace {
 
 std::string read_and_write(const std::string& text) {
   std::istringstream in(text);
-  tanglebin::ModelSettings settings;
-  tanglebin::read_profile(in, "fuzz", settings);
   std::ostringstream out;
-  tanglebin::write_profile(out, tanglebin::parameters(settings), "fuzz");
+  tanglebin::write_profile(out, tanglebin::read_profile(in, "fuzz"), "fuzz");
   return out.str();
 }
 

@@ -22,5 +22,6 @@ void add_experiment(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_report(CLI::App& app);
 void add_learn(CLI::App& app);
+void add_calibrate(CLI::App& app);
 
 }  // namespace tanglebin::cli

@@ -9,9 +9,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
@@ -80,9 +82,11 @@ std::optional<BuiltIn> built_in(const std::string& text, ModelSettings model) {
   const auto method = std::ranges::find_if(
       known, [&](Method its) { return name_of(its) == std::string_view(text).substr(0, colon); });
   if (colon == std::string::npos || method == known.end()) return std::nullopt;
-  const std::string profile = text.substr(colon + 1);
-  read_profile(profile, model);
-  return BuiltIn{*method, profile, model};
+  const std::string file = text.substr(colon + 1);
+  const Profile profile = read_profile(file);
+  expect_for(profile, {*method}, file);
+  apply(profile, model);
+  return BuiltIn{*method, file, model};
 }
 
 Entry entry_named(const std::string& text, const ModelSettings& model, const ProcessLimits& limits) {
@@ -91,23 +95,29 @@ Entry entry_named(const std::string& text, const ModelSettings& model, const Pro
   return {name, command_of(what, std::filesystem::current_path(), limits)};
 }
 
+// Of --method, without those that have names of their own; axis if no method is named at all.
+std::vector<Method> methods_of(const ExperimentArguments& arguments) {
+  std::vector<Method> asked;
+  for (const std::string& text : arguments.methods) {
+    if (text.find('=') != std::string::npos) continue;
+    for (const std::string_view name : split(text, ',')) asked.push_back(method_named(std::string(name)));
+  }
+  if (arguments.methods.empty() && arguments.labels.empty()) asked.push_back(Method::axis);
+  return asked;
+}
+
 // Those that are built in, in the order of methods(); then those with names of their own, as they were given.
 std::vector<Entry> entries_of(const ExperimentArguments& arguments, const ModelSettings& model) {
-  std::vector<Method> asked;
+  const std::vector<Method> asked = methods_of(arguments);
   std::vector<Entry> others;
   for (const std::string& text : arguments.methods) {
-    if (text.find('=') != std::string::npos) {
-      others.push_back(entry_named(text, model, limits_of(arguments)));
-    } else {
-      for (const std::string_view name : split(text, ',')) asked.push_back(method_named(std::string(name)));
-    }
+    if (text.find('=') != std::string::npos) others.push_back(entry_named(text, model, limits_of(arguments)));
   }
   for (const std::string& text : arguments.labels) {
     const auto [name, directory] = named(text, "--labels");
     others.push_back(
         {name, LabelsDirectory{std::filesystem::absolute(directory).lexically_normal().string()}});
   }
-  if (asked.empty() && others.empty()) asked.push_back(Method::axis);
   std::vector<Entry> entries;
   for (const Method method : methods()) {
     if (std::ranges::find(asked, method) != asked.end()) entries.push_back(entry_of(method));
@@ -115,6 +125,29 @@ std::vector<Entry> entries_of(const ExperimentArguments& arguments, const ModelS
   std::ranges::move(others, std::back_inserter(entries));
   expect_names(entries);
   return entries;
+}
+
+// The files of the profiles that the methods have.
+std::set<std::string> profiles_of(const ExperimentSettings& settings) {
+  std::set<std::string> files;
+  if (!settings.profile.empty()) files.insert(settings.profile);
+  for (const Entry& entry : settings.methods) {
+    const auto* own = std::get_if<BuiltIn>(&entry.what);
+    if (own != nullptr) files.insert(own->profile);
+  }
+  return files;
+}
+
+// In which ways the first of the cases of each set is not what a profile was made for.
+void print_doubts_of_profiles(const ExperimentSettings& settings, const Dataset& dataset,
+                              const std::vector<CaseId>& wanted) {
+  for (const std::string& file : profiles_of(settings)) {
+    const Profile profile = read_profile(file);
+    std::set<std::string> sets;
+    for (const CaseId& id : wanted) {
+      if (sets.insert(id.set).second) print_doubts(profile, known_scene(recipe_of(dataset, id), id), file);
+    }
+  }
 }
 
 /// What the results say, and when.
@@ -192,16 +225,19 @@ void print_text(const ExperimentArguments& arguments, const ExperimentSummary& s
 }
 
 void experiment(const ExperimentArguments& arguments) {
-  const ModelSettings model = settings_of(arguments.model);
+  const ModelSettings model =
+      settings_of(arguments.model, profile_of(arguments.model, methods_of(arguments)));
   ExperimentSettings settings{.methods = entries_of(arguments, model),
                               .ratios = parse_ratios(arguments.ratios, "--downsample"),
                               .model = model,
+                              .profile = arguments.model.profile,
                               .keep_models = arguments.keep};
   if (arguments.scene) settings.scene = scene_named(*arguments.scene, "");
   expect_dataset(arguments.dataset);
   const Dataset dataset = read_dataset(arguments.dataset);
   std::vector<CaseId> wanted = chosen(arguments.many, cases(dataset), arguments.dataset);
   if (const std::optional<Shard> shard = shard_of(arguments.shard)) wanted = part_of(*shard, wanted);
+  print_doubts_of_profiles(settings, dataset, wanted);
   const Clock::time_point start = Clock::now();
   const ExperimentSummary summary = [&] {
     ProgressReport progress(arguments.progress);

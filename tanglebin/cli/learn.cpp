@@ -120,7 +120,7 @@ void learn_for_tubes(const LearnArguments& arguments) {
 
 void write_weights(const LinkWeights& weights, const LearnArguments& arguments) {
   std::ostringstream profile;
-  write_profile(profile, link_parameters(weights),
+  write_profile(profile, {.parameters = link_parameters(weights), .method = Method::axis},
                 fmt::format("Weights of links, learned by tanglebin {} from {}", versions().at("tanglebin"),
                             fmt::join(arguments.datasets, ", ")));
   write_output(*arguments.out, profile.str());

@@ -57,6 +57,7 @@ int run(int argc, char** argv) {
   add_compare(app);
   add_report(app);
   add_learn(app);
+  add_calibrate(app);
   app.footer(
       "Exit status: 0 done, 2 bad input, 3 cases failed, 4 faults found, 5 the system refused (disk full, "
       "…),\n"

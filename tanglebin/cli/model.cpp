@@ -85,8 +85,8 @@ double ratio_of(const ModelArguments& arguments) {
   return ratios.front();
 }
 
-ModelSettings model_settings(const ModelArguments& arguments) {
-  ModelSettings settings = settings_of(arguments.model);
+ModelSettings model_settings(const ModelArguments& arguments, const Profile& profile) {
+  ModelSettings settings = settings_of(arguments.model, profile);
   settings.method = method_named(arguments.method);
   settings.ratio = ratio_of(arguments);
   return settings;
@@ -124,7 +124,8 @@ std::vector<Output> outputs(const ModelArguments& arguments) {
 
 void model_cloud(const ModelArguments& arguments) {
   expect_outputs(outputs(arguments));
-  const ModelSettings settings = model_settings(arguments);
+  const Profile profile = profile_of(arguments.model, {method_named(arguments.method)});
+  const ModelSettings settings = model_settings(arguments, profile);
   const Scene told = scene_of(arguments.scene, arguments.cloud);
   const Measurement measured =
       read_input(arguments.cloud, [&](auto&&... from) { return read_measurement(from..., told); });
@@ -133,6 +134,7 @@ void model_cloud(const ModelArguments& arguments) {
                    measured.cloud);
   });
   print_notes(resolved.notes);
+  print_doubts(profile, resolved.known, arguments.model.profile);
   validate(resolved.known, settings);
   const Model model =
       with_file(arguments.cloud, [&] { return model_tubes(resolved.cloud, resolved.known, settings); });

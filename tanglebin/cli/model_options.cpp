@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include "tanglebin/cli/arguments.hpp"
+#include "tanglebin/cli/print.hpp"
 #include "tanglebin/model/parameters.hpp"
-#include "tanglebin/profile/profile.hpp"
 
 namespace tanglebin::cli {
 
@@ -13,7 +13,7 @@ void add_options(CLI::App& command, ModelOptions& options) {
       ->capture_default_str();
   command
       .add_option("--profile", options.profile,
-                  "File with parameters of the methods, as `tanglebin learn` writes it")
+                  "File with parameters of the methods, as `tanglebin calibrate` and `learn` write it")
       ->option_text("FILE");
   command
       .add_option("--parameter", options.parameters,
@@ -22,11 +22,23 @@ void add_options(CLI::App& command, ModelOptions& options) {
       ->option_text("NAME=VALUE");
 }
 
-ModelSettings settings_of(const ModelOptions& options) {
+Profile profile_of(const ModelOptions& options, const std::vector<Method>& methods) {
+  if (options.profile.empty()) return {};
+  Profile profile = read_profile(options.profile);
+  expect_for(profile, methods, options.profile);
+  return profile;
+}
+
+ModelSettings settings_of(const ModelOptions& options, const Profile& profile) {
   ModelSettings settings{.seed = parse_seed(options.seed, "--seed")};
-  if (!options.profile.empty()) read_profile(options.profile, settings);
+  apply(profile, settings);
   for (const std::string& assignment : options.parameters) set_parameter(settings, assignment, "--parameter");
   return settings;
+}
+
+void print_doubts(const Profile& profile, const KnownScene& known, const std::string& file) {
+  for (const std::string& doubt : doubts_of(profile, known))
+    print_error("tanglebin: warning: {}: {}\n", file, doubt);
 }
 
 }  // namespace tanglebin::cli

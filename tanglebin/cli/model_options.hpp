@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tanglebin/model/model_tubes.hpp"
+#include "tanglebin/profile/profile.hpp"
 
 namespace CLI {
 class App;
@@ -22,8 +23,15 @@ struct ModelOptions {
 /// Adds --seed, --profile and --parameter, which fill `options`.
 void add_options(CLI::App& command, ModelOptions& options);
 
+/// The profile of the options; an empty one if there is none. Throws InputError naming the place in it, or if
+/// it is for none of these methods.
+Profile profile_of(const ModelOptions& options, const std::vector<Method>& methods);
+
 /// Settings with this seed, those of the profile, and then these parameters. Throws InputError naming the
-/// option, or the place in the profile.
-ModelSettings settings_of(const ModelOptions& options);
+/// option.
+ModelSettings settings_of(const ModelOptions& options, const Profile& profile);
+
+/// Warns, a line each on standard error, in which ways a scene is not what a profile was made for.
+void print_doubts(const Profile& profile, const KnownScene& known, const std::string& file);
 
 }  // namespace tanglebin::cli

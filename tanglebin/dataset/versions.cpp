@@ -1,14 +1,21 @@
 #include "tanglebin/dataset/versions.hpp"
 
+#include <dlfcn.h>
 #include <embree3/rtcore_config.h>
 #include <fmt/core.h>
 #include <gnu/libc-version.h>
+#include <link.h>
 #include <png.h>
 #include <sys/utsname.h>
 #include <zlib.h>
 
 #include <Eigen/Core>
 #include <boost/version.hpp>
+#include <limits>
+#include <string>
+
+#include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/io/read_file.hpp"
 
 namespace tanglebin {
 namespace {
@@ -21,6 +28,15 @@ std::string machine() {
   if (__builtin_cpu_supports("fma") == 0) return fmt::format("{} without FMA", name.machine);
 #endif
   return name.machine;
+}
+
+// The file with this code: the program, or a shared library such as Python's module.
+std::string file_of_this_code() {
+  Dl_info info{};
+  void* object = nullptr;
+  dladdr1(reinterpret_cast<const void*>(&file_of_this_code), &info, &object, RTLD_DL_LINKMAP);
+  const std::string library = object ? static_cast<const link_map*>(object)->l_name : "";
+  return library.empty() ? "/proc/self/exe" : library;
 }
 
 }  // namespace
@@ -39,6 +55,12 @@ Versions versions() {
       {"glibc", gnu_get_libc_version()},
       {"machine", machine()},
   };
+}
+
+const std::string& program_sha256() {
+  static const std::string hash =
+      sha256(read_file(file_of_this_code(), std::numeric_limits<std::size_t>::max()));
+  return hash;
 }
 
 }  // namespace tanglebin

@@ -12,4 +12,7 @@ using Versions = std::map<std::string, std::string>;
 /// The versions of this program on this machine.
 Versions versions();
 
+/// SHA-256 of the program that runs, or of the shared library with this code.
+const std::string& program_sha256();
+
 }  // namespace tanglebin

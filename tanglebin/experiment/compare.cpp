@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/base/random.hpp"
+#include "tanglebin/base/estimate.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/experiment/results.hpp"
 #include "tanglebin/io/read_file.hpp"
@@ -96,49 +95,21 @@ Measures mean(const std::vector<Pair>& pairs, Measures Pair::*side) {
   return mean;
 }
 
-std::vector<Measures> differences_of(const std::vector<Pair>& pairs) {
-  std::vector<Measures> differences;
+std::vector<double> differences_of(const std::vector<Pair>& pairs, std::size_t measure) {
+  std::vector<double> differences;
   differences.reserve(pairs.size());
-  for (const Pair& pair : pairs) {
-    Measures& difference = differences.emplace_back(pair.other);
-    for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= pair.baseline[i];
-  }
+  for (const Pair& pair : pairs) differences.push_back(pair.other[measure] - pair.baseline[measure]);
   return differences;
-}
-
-// The mean differences of scenes drawn with replacement, as many as there are, again and again.
-std::vector<Measures> resampled_means(const std::vector<Measures>& differences) {
-  constexpr std::size_t resamples = 2000;
-  constexpr std::uint64_t seed = 1;
-  Rng rng(seed);
-  const int last = static_cast<int>(differences.size()) - 1;
-  std::vector<Measures> means(resamples);
-  for (Measures& mean : means) {
-    for (std::size_t i = 0; i < differences.size(); ++i)
-      add(mean, differences[static_cast<std::size_t>(uniform_integer(rng, 0, last))]);
-    divide(mean, differences.size());
-  }
-  return means;
-}
-
-// The value below which this share of them lies.
-double percentile(const std::vector<Measures>& means, std::size_t measure, double share) {
-  std::vector<double> values;
-  values.reserve(means.size());
-  for (const Measures& mean : means) values.push_back(mean[measure]);
-  std::ranges::sort(values);
-  return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
 }
 
 std::vector<MeasureDifference> measure_differences(const std::vector<Pair>& pairs) {
   const Measures baseline = mean(pairs, &Pair::baseline);
   const Measures other = mean(pairs, &Pair::other);
-  const std::vector<Measures> means = resampled_means(differences_of(pairs));
   std::vector<MeasureDifference> differences;
   for (std::size_t i = 0; i < measure_names.size(); ++i) {
-    constexpr double tail = 0.025;
-    differences.push_back({measure_names[i], baseline[i], other[i], other[i] - baseline[i],
-                           percentile(means, i, tail), percentile(means, i, 1 - tail)});
+    const Estimate estimate = estimate_of_mean(differences_of(pairs, i));
+    differences.push_back(
+        {measure_names[i], baseline[i], other[i], other[i] - baseline[i], estimate.low, estimate.high});
   }
   return differences;
 }

@@ -1,13 +1,10 @@
 #include "tanglebin/experiment/results.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
-#include <link.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <limits>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -17,6 +14,7 @@
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/dataset/dataset_summary.hpp"
 #include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/dataset/versions.hpp"
 #include "tanglebin/experiment/measures.hpp"
 #include "tanglebin/experiment/tables.hpp"
 #include "tanglebin/io/read_file.hpp"
@@ -34,22 +32,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* results_name = "results.jsonl";
 constexpr const char* generation_name = "generation.jsonl";
-
-// The file with this code: the program, or a shared library such as Python's module.
-std::string file_of_this_code() {
-  Dl_info info{};
-  void* object = nullptr;
-  dladdr1(reinterpret_cast<const void*>(&file_of_this_code), &info, &object, RTLD_DL_LINKMAP);
-  const std::string library = object ? static_cast<const link_map*>(object)->l_name : "";
-  return library.empty() ? "/proc/self/exe" : library;
-}
-
-// SHA-256 of the program that runs.
-const std::string& program_sha256() {
-  static const std::string hash =
-      sha256(read_file(file_of_this_code(), std::numeric_limits<std::size_t>::max()));
-  return hash;
-}
 
 // Separates the lines of a case in the journal; inside the lines, JSON escapes tabs.
 constexpr char separator = '\t';
@@ -143,6 +125,7 @@ Json experiment_json(const Dataset& dataset, const ExperimentSettings& settings)
   json["other_methods"] = others_json(settings.methods);
   json["ratios"] = settings.ratios;
   json["seed"] = settings.model.seed;
+  if (!settings.profile.empty()) json["profile"] = settings.profile;
   json["parameters"] = changed_parameters(settings.model);
   json["recipe_sha256"] = dataset.recipe_sha256;
   json["scene"] = scene_text(settings.scene);

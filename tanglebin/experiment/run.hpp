@@ -22,6 +22,7 @@ struct ExperimentSettings {
       built_in_entries();      ///< in the order of the results, as expect_names() expects
   std::vector<double> ratios;  ///< ascending, each in (0, 1]
   ModelSettings model{};       ///< its seed is combined with each case's name; method and ratio are ignored
+  std::string profile{};       ///< the file that `model` is from, for the record
   Scene scene{};               ///< what to tell the methods instead of what the recipe says
   bool keep_models = false;    ///< also keep the labelled clouds and the tubes (kept_models.hpp)
 };

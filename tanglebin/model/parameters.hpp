@@ -1,12 +1,33 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tanglebin/model/model_tubes.hpp"
 
 namespace tanglebin {
+
+/// The values of a parameter among which `tanglebin calibrate` looks for a better one. Others may be valid.
+struct SearchRange {
+  double least;
+  double greatest;
+  bool by_factors;  ///< equal factors are equally far, as for a size; otherwise equal differences
+};
+
+/// What a parameter is.
+struct Parameter {
+  std::string name;
+  std::string meaning;               ///< with its unit first
+  double standard;                   ///< its default
+  bool is_whole;                     ///< a count
+  std::optional<SearchRange> range;  ///< none of the weights of links, which are learned
+};
+
+/// All parameters of both methods, in the order of their steps.
+std::vector<Parameter> declared_parameters();
 
 /// The parameters of both methods, keyed by the names of their members, such as "axis.vote.floor_margin".
 std::map<std::string, double> parameters(const ModelSettings& settings);

@@ -58,6 +58,31 @@ TEST(Parameters, AreAllInTheManual) {
   }
 }
 
+TEST(Parameters, HaveARangeAroundTheirDefaultsThatCanBeSearched) {
+  for (const auto& [name, meaning, standard, is_whole, range] : declared_parameters()) {
+    EXPECT_NE(meaning, "") << name;
+    EXPECT_EQ(range.has_value(), !name.starts_with("axis.link.weights.")) << name;
+    if (!range) continue;
+    EXPECT_LE(range->least, standard) << name;
+    EXPECT_GE(range->greatest, standard) << name;
+    for (const double value : {range->least, range->greatest}) {
+      ModelSettings settings;
+      set_parameter(settings, name, value);
+      EXPECT_EQ(parameters(settings).at(name), value);
+    }
+    EXPECT_TRUE(!range->by_factors || range->least > 0) << name;
+  }
+}
+
+TEST(Parameters, MeanWhatTheManualSays) {
+  std::ifstream file(TANGLEBIN_SOURCE "/docs/algorithm.md");
+  const std::string manual{std::istreambuf_iterator<char>(file), {}};
+  for (const auto& [name, meaning, standard, is_whole, range] : declared_parameters()) {
+    if (!range || name.starts_with("paper.")) continue;  // the manual says what those of the paper trade
+    EXPECT_THAT(manual, HasSubstr("| " + meaning + " |")) << name;
+  }
+}
+
 TEST(Parameters, SayWhatTheyCannotTake) {
   EXPECT_THAT(complaint("axis.fit.tolerance"),
               HasSubstr("--parameter: found 'axis.fit.tolerance', expected NAME=VALUE"));

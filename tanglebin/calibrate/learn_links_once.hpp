@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "tanglebin/calibrate/race.hpp"
+#include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/runs/workers.hpp"
+
+namespace tanglebin {
+
+/// The weights of links, as parameters, learned from these scenes (learn_links.hpp) in a worker process; the
+/// defaults for a kind of link that the scenes do not have. They are kept in `file`, a profile, and not
+/// learned again. Throws CalibrationStopped if SIGINT or SIGTERM ended it.
+Parameters learn_links_once(const Dataset& dataset, const std::vector<CaseId>& scenes,
+                            const std::filesystem::path& file, const WorkersObserver& observer);
+
+}  // namespace tanglebin

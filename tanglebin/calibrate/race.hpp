@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tanglebin {
+
+/// Values of parameters by name, of those that are not at their defaults.
+using Parameters = std::map<std::string, double>;
+
+/// The scores, 0 to 1, of parameters on some of the scenes: from number `first` on, `count` of them.
+using Scorer =
+    std::function<std::vector<double>(const Parameters& parameters, std::size_t first, std::size_t count)>;
+
+/// Scenes that a candidate is scored on before it is compared with the best.
+inline constexpr std::size_t scenes_of_heat = 10;
+
+/// Compares candidates with the best so far on the same scenes, and drops those that are worse after a few of
+/// them, as in Maron and Moore 1997, "The racing algorithm". What the scorer throws leaves the best as it is.
+class Race {
+public:
+  /// Scores the first candidate on all scenes.
+  Race(Scorer scorer, std::size_t scenes, const Parameters& first);
+
+  const Parameters& best() const { return best_; }
+
+  /// The mean of the best over all scenes.
+  double score() const { return score_; }
+
+  /// How much better a candidate is than the best on the first heat alone; negative if it is worse.
+  double glance(const Parameters& candidate) const;
+
+  /// The mean score of a candidate, which becomes the best if it is better on all scenes. If it is dropped
+  /// before, its mean is estimated from its differences up to then.
+  double run(const Parameters& candidate);
+
+  /// Takes a candidate as the best if it is at least as good. Returns whether it is.
+  bool take_if_as_good(const Parameters& candidate);
+
+private:
+  /// How a candidate came out.
+  struct Outcome {
+    std::vector<double> scores;
+    double mean;
+    bool is_dropped;
+  };
+  Outcome compete(const Parameters& candidate) const;
+  void take(const Parameters& candidate, Outcome outcome);
+
+  Scorer scorer_;
+  Parameters best_;
+  std::vector<double> scores_;
+  double score_;
+};
+
+}  // namespace tanglebin
