@@ -17,8 +17,10 @@ namespace {
 LinkWeights weights_from(const Dataset& dataset, const std::vector<CaseId>& scenes) {
   std::vector<EndExample> examples;
   for (const CaseId& id : scenes) {
-    stop_if_asked();
-    std::ranges::copy(end_examples(dataset, id), std::back_inserter(examples));
+    for (const Scanner& scanner : scanners(dataset.recipe)) {
+      stop_if_asked();
+      std::ranges::copy(end_examples(dataset, {id, scanner.name}), std::back_inserter(examples));
+    }
   }
   return learn_weights(examples);
 }
