@@ -13,8 +13,7 @@ namespace tanglebin {
 namespace {
 
 // Ends with three links each, of which they chose one or none with known odds.
-TEST(LearnWeights, FindsTheWeightsThatEndsChoseBy) {
-  const LinkFeatures weights = {1, -2, 0.5, -1, 0.25, 1.5, -0.5, 0.75};
+std::vector<EndExample> ends_that_chose_by(const LinkFeatures& weights) {
   Rng rng(1);
   std::vector<EndExample> ends(30000);
   for (EndExample& end : ends) {
@@ -31,10 +30,21 @@ TEST(LearnWeights, FindsTheWeightsThatEndsChoseBy) {
       left -= odds[i];
     }
   }
-  const LinkWeights learned = learn_weights(ends);
+  return ends;
+}
+
+TEST(LearnWeights, FindsTheWeightsThatEndsChoseBy) {
+  const LinkFeatures weights = {1, -2, -0.5, -1, 0.25, 1.5, -0.5, 0.75};
+  const LinkWeights learned = learn_weights(ends_that_chose_by(weights));
   for (std::size_t j = 0; j < weights.size(); ++j) EXPECT_NEAR(learned.chain_ends[j], weights[j], 0.05) << j;
   EXPECT_EQ(learned.tree_ends, LinkFeatures{});
   EXPECT_EQ(learned.junction, LinkFeatures{});
+}
+
+TEST(LearnWeights, LetNoLinkBeLikelierForALongerGap) {
+  const LinkWeights learned = learn_weights(ends_that_chose_by({1, -2, 0.1, -1}));
+  EXPECT_EQ(learned.chain_ends[2], 0);
+  EXPECT_NEAR(learned.chain_ends[3], -1, 0.1);
 }
 
 TEST(EndExamples, AreTrueWhereATubeGoesOnAndFalseWhereItDoesNot) {

@@ -735,7 +735,7 @@ TEST(Recipe, OnesInTheRepositoryAreWhatTheySay) {
   EXPECT_EQ(cases(read_recipe(file("crowded.toml"))).size(), 50U);
   EXPECT_EQ(cases(read_recipe(file("varied.toml"))).size(), 200U);
   const Recipe bars = read_recipe(file("bars.toml"));
-  EXPECT_EQ(cases(bars).size(), 280U);
+  EXPECT_EQ(cases(bars).size(), 700U);
   EXPECT_NEAR(segments_of(bars.sets.at(0).kinds.at(0))[0].length, 0.244, 0.007);
   EXPECT_NEAR(segments_of(bars.sets.at(1).kinds.at(0))[0].length, 0.214, 0.007);
   const Recipe paper = read_recipe(file("paper.toml"));

@@ -72,7 +72,7 @@ TEST(ChooseLinks, AreExchangedForOnesThatAreHeavierTogether) {
 // Two pieces that would be a chain of 40 cm, seen from end to end: it is no tube of 80 cm.
 TEST(ChooseLinks, MakeNoTubeThatLacksWhatWouldHaveBeenSeen) {
   std::vector<Fragment> pieces = {straight_fragment({-0.15, 0, 0.05}, {-0.05, 0, 0.05}),
-                                  straight_fragment({0.11, 0.08, 0.05}, {0.17, 0.16, 0.05})};
+                                  straight_fragment({0.11, 0.1, 0.05}, {0.15, 0.19, 0.05})};
   const auto joined = [&](double length, double hidden) {
     pieces[0].ends[0].hidden = pieces[1].ends[1].hidden = hidden;
     pieces[0].ends[1].hidden = pieces[1].ends[0].hidden = 0.4;
