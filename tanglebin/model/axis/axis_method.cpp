@@ -99,13 +99,17 @@ bool is_tube(const Tube& tube, const std::optional<double>& roundness, const Sup
   return *roundness >= least && *roundness <= most;
 }
 
-// No more is seen of it than of a ball, and the rest should have been seen.
+// Next to nothing is seen of it; or no more than of a ball, and the rest should have been seen.
 bool is_false_speck(const AxisSteps& steps, const std::vector<std::size_t>& members, const TubeKind& kind,
                     const LinkSettings& settings) {
   std::size_t points = 0;
   for (const std::size_t member : members) points += steps.fragments[member].points.size();
-  const double diameter = 2;  // radii
-  if (static_cast<double>(points) > diameter * points_on_a_radius(steps.fragments, kind.radius)) return false;
+  // Points of a piece that is so long, in radii.
+  constexpr double nothing = 0.5;
+  constexpr double ball = 2;
+  const double seen = static_cast<double>(points) / points_on_a_radius(steps.fragments, kind.radius);
+  if (seen < nothing) return true;
+  if (seen > ball) return false;
   double length = 0;
   double hidden = 0;
   for (const std::size_t member : members) {
