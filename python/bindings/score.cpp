@@ -1,6 +1,7 @@
 #include "tanglebin/score/score.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,7 @@ void bind_measures(py::module_& module) {
       .def_readonly("mean_iou", &Score::mean_iou, doc::score::Score_mean_iou)
       .def_readonly("detection", &Score::detection, doc::score::Detection)
       .def_readonly("adjusted_rand_index", &Score::adjusted_rand_index, doc::score::adjusted_rand_index)
+      .def_readonly("unmixed_recall", &Score::unmixed_recall, doc::score::Score_unmixed_recall)
       .def_readonly("instances", &Score::instances, doc::score::Instances)
       .def_readonly("tubes", &Score::tubes, doc::score::Score_tubes);
   py::class_<TubesScore>(module, "TubesScore", doc::score::TubesScore)
@@ -65,12 +67,13 @@ void bind_score(py::module_& module) {
   bind_measures(module);
   module.def(
       "score",
-      [](const AnyArray& truth, const AnyArray& predicted) {
+      [](const AnyArray& truth, const AnyArray& predicted, const std::optional<AnyArray>& mixed) {
         const auto true_labels = integers_of<std::int32_t>(truth, "truth");
         const auto labels = integers_of<std::int32_t>(predicted, "predicted");
-        return without_gil([&] { return score(true_labels, labels); });
+        const auto marks = mixed ? integers_of<std::uint8_t>(*mixed, "mixed") : std::vector<std::uint8_t>{};
+        return without_gil([&] { return score(true_labels, labels, marks); });
       },
-      py::arg("truth"), py::arg("predicted"), doc::score::score);
+      py::arg("truth"), py::arg("predicted"), py::arg("mixed") = py::none(), doc::score::score);
   module.def(
       "score_clouds",
       [](const PointCloud& truth, const PointCloud& labelled, const std::string& truth_file,

@@ -14,7 +14,8 @@ def test_labels_are_scored():
     assert isinstance(score.detection, tanglebin.Detection) and score.detection.f1 == 1
     assert score.detection.panoptic_quality == pytest.approx(7 / 8)
     assert isinstance(score.instances, tanglebin.Instances) and score.instances.correct == 2
-    assert 0 < score.adjusted_rand_index < 1
+    assert 0 < score.adjusted_rand_index < 1 and score.unmixed_recall is None
+    assert tanglebin.score(truth, predicted, mixed=predicted == 0).unmixed_recall == 1
     first = score.tubes[0]
     assert isinstance(first, tanglebin.TubeScore)
     assert (first.label, first.points, first.assigned, first.correct_points, first.iou) == (1, 4, 7, 3, 0.75)

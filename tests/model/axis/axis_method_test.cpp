@@ -203,6 +203,28 @@ TEST(AxisMethod, DoesNotDependOnTheScale) {
   for (const float scale : {0.25F, 0.5F, 2.0F, 4.0F}) EXPECT_EQ(labels_at(scale), labels) << scale;
 }
 
+// The top of a ball as thick as the tube: fifty points, of which half a radius of the tube has more.
+TEST(AxisMethod, FindsNoTubeInASpeckBesideOne) {
+  PointCloud cloud = scanned({test::straight_tube(1, 0)});
+  const std::size_t without = cloud.points.size();
+  constexpr double step = 0.0015;  // m, the camera's pixels
+  for (int i = -4; i <= 4; ++i) {
+    for (int j = -4; j <= 4; ++j) {
+      const Vector3d p(i * step, j * step, 0);
+      if (p.norm() > 4 * step) continue;
+      const double up = std::sqrt(0.0125 * 0.0125 - p.squaredNorm());
+      cloud.points.push_back((Vector3d(0, -0.1, 0.02 + up) + p).cast<float>());
+      cloud.labels.push_back(0);
+    }
+  }
+  cloud.width = cloud.points.size();
+  cloud.colors.clear();
+  ASSERT_GT(cloud.points.size(), without + 40);
+  const AxisModel found = modelled(cloud);
+  EXPECT_GT(found.kinds[0].fragments.size(), 1U);
+  EXPECT_EQ(found.model.tubes.size(), 1U);
+}
+
 TEST(AxisMethod, FindsNothingInNoise) {
   Rng rng(1);
   std::vector<Eigen::Vector3f> noise;
