@@ -90,7 +90,7 @@ std::filesystem::path directory_of(const CalibrateArguments& arguments) {
 /// Shows how far the search is, on standard error: a line in place on a terminal, else one now and then.
 class CalibrationReport {
 public:
-  explicit CalibrationReport(CalibrationBudget budget) : budget_(std::move(budget)) {}
+  explicit CalibrationReport(CalibrationBudget budget) : budget_(budget) {}
   ~CalibrationReport() {
     if (is_shown_) print_error("\n");
   }

@@ -252,8 +252,8 @@ void apply(const Profile& profile, ModelSettings& settings) {
 void expect_for(const Profile& profile, const std::vector<Method>& methods, const std::string& file) {
   if (!profile.method || methods.empty() || std::ranges::find(methods, *profile.method) != methods.end())
     return;
-  std::vector<std::string> names;
-  for (const Method method : methods) names.push_back(name_of(method));
+  std::vector<std::string> names(methods.size());
+  std::ranges::transform(methods, names.begin(), [](Method method) { return name_of(method); });
   throw InputError({file, 0, std::string(method_key)}, name_of(*profile.method),
                    fmt::format("a profile for {}", fmt::join(names, " or ")));
 }

@@ -98,7 +98,7 @@ ExperimentRecord read_experiment(const fs::path& file) {
                               .dataset = record.text_if_there("dataset").value_or(""),
                               .dataset_digest = record.text_if_there("dataset_digest").value_or(""),
                               .parameters = numbers_by_name(record, "parameters"),
-                              .has_scene_file = record.text_if_there("scene").value_or("") != ""};
+                              .has_scene_file = !record.text_if_there("scene").value_or("").empty()};
   if (record.has("other_methods")) add_other_methods(record.object("other_methods"), experiment);
   return experiment;
 }
