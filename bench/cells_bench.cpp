@@ -5,7 +5,7 @@
 //
 //     SCENES=20 build/bench_cells --benchmark_filter=tilt
 //
-// scripts/cells makes the tables of docs/real-scans.md.
+// scripts/cells makes the tables of docs/robustness.md.
 
 #include <benchmark/benchmark.h>
 

@@ -45,6 +45,7 @@ std::vector<TubeExample> tube_examples(const Dataset& dataset, const SeenCase& s
   PointsOn all;
   std::vector<PointsOn> on(model.tubes.size());
   for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (!data.cloud.mixed.empty() && data.cloud.mixed[i] != 0) continue;
     ++all[truth[i]];
     if (model.labels[i] > bin_label) ++on[static_cast<std::size_t>(model.labels[i]) - 1][truth[i]];
   }

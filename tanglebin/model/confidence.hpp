@@ -23,8 +23,8 @@ inline constexpr ConfidenceFeatures learned_confidence = {-0.6458, 1.4743,  -8.7
                                                           -1.9876, -8.2361, -7.0669, 1.0000};
 
 /// The probability that the tube is one whole true tube: that at least 95 % of its points are on that tube,
-/// and that at least 95 % of that tube's points in the cloud are its own. The logistic function of the
-/// weighted sum of the features.
+/// and that at least 95 % of that tube's points in the cloud are its own. Mixed points, which lie between
+/// surfaces, do not count. The logistic function of the weighted sum of the features.
 double confidence(const ConfidenceFeatures& features, const ConfidenceFeatures& weights = learned_confidence);
 
 }  // namespace tanglebin

@@ -10,6 +10,17 @@
 namespace tanglebin {
 namespace {
 
+// The points that footprints of three pixels blend are more than a twentieth of a tube's.
+Recipe finely_seen_recipe_with_blended_edges() {
+  Recipe recipe = test::finely_seen_recipe();
+  recipe.camera = downward_camera(960, 600, focal_length_from_hfov(960, 1.22), {0, 0, 2});
+  recipe.sensor = sensor_preset("phoxi");
+  recipe.sensor.footprint = 3;
+  recipe.sensor.working_distance = 2;
+  recipe.output.properties.mixed = true;
+  return recipe;
+}
+
 TEST(LearnConfidence, FindsTheWeightsThatMadeTheExamples) {
   const ConfidenceFeatures truth = {0.5, 2, -1, 0, 0, 0, 0, 0};
   Rng rng(3);
@@ -35,6 +46,16 @@ TEST(LearnConfidence, KnowsWhichTubesOfACaseAreWhole) {
   const std::vector<TubeExample> examples = tube_examples(dataset.read(), {{"A", 1, 1}, ""});
   ASSERT_EQ(examples.size(), 1U);
   EXPECT_TRUE(examples[0].is_right);
+}
+
+TEST(LearnConfidence, TakesATubeForWholeIfItLacksOnlyMixedPoints) {
+  Recipe recipe = finely_seen_recipe_with_blended_edges();
+  const test::SmallDataset marked(recipe);
+  recipe.output.properties.mixed = false;
+  const test::SmallDataset not_marked(recipe);
+  const CaseId lone{"A", 1, 1};
+  EXPECT_TRUE(tube_examples(marked.read(), {lone, ""}).at(0).is_right);
+  EXPECT_FALSE(tube_examples(not_marked.read(), {lone, ""}).at(0).is_right);
 }
 
 }  // namespace
