@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
+#include "tanglebin/geometry/labels.hpp"
 
 namespace tanglebin {
 namespace {
@@ -277,11 +278,11 @@ std::optional<Finding> doubt_of_rim(const PointCloud& cloud, const KnownScene& k
 /// The points on the floor and in the solid, m, in the support's frame.
 struct SupportContact {
   std::size_t looked_at = 0;
-  std::vector<double> near_floor;  ///< heights over it
+  std::vector<double> near_floor;  ///< heights over it, of what is on no tube
   std::vector<double> inside;      ///< how deep in floor or walls
 };
 
-SupportContact contact_of(const PointCloud& cloud, const KnownScene& known) {
+SupportContact contact_of(const PointCloud& cloud, const KnownScene& known, const Model& model) {
   const Support& support = known.support;
   const Eigen::Isometry3d to_support = support.pose.inverse(Eigen::Isometry);
   const std::vector<Eigen::AlignedBox3d> parts = solid_parts(support);
@@ -295,7 +296,8 @@ SupportContact contact_of(const PointCloud& cloud, const KnownScene& known) {
         support.shape == Support::Shape::plane || (2 * std::abs(point.x()) < support.bin.length - 2 * reach &&
                                                    2 * std::abs(point.y()) < support.bin.width - 2 * reach);
     ++contact.looked_at;
-    if (is_over_floor && std::abs(point.z()) < reach) contact.near_floor.push_back(point.z());
+    const bool is_on_tube = model.labels[i] > bin_label;
+    if (is_over_floor && !is_on_tube && std::abs(point.z()) < reach) contact.near_floor.push_back(point.z());
     for (const Eigen::AlignedBox3d& part : parts) {
       const double depth = std::min((point - part.min()).minCoeff(), (part.max() - point).minCoeff());
       if (depth > 0) contact.inside.push_back(depth);
@@ -363,7 +365,7 @@ std::vector<Finding> doubts_of_support(const PointCloud& cloud, const KnownScene
   const auto add = [&](const std::optional<Finding>& doubt) {
     if (doubt) doubts.push_back(*doubt);
   };
-  const SupportContact contact = contact_of(cloud, known);
+  const SupportContact contact = contact_of(cloud, known, model);
   add(doubt_of_floor(contact, support));
   add(doubt_of_solid(contact, support));
   // A cloud of the tubes alone has no rim.

@@ -106,6 +106,22 @@ TEST(Diagnose, WhatTheCameraCannotHaveSeenIsNullEvenOnTheBin) {
   }
 }
 
+// Of half the size, so that the backs of the tubes are less than 20 mm above the plane.
+TEST(Diagnose, DoesNotTakeTubesForTheFloorThatTheyHide) {
+  View view = right_view();
+  for (std::size_t i = 0; i < view.cloud.points.size(); ++i) {
+    if (view.cloud.labels[i] == bin_label) view.cloud.points[i].setConstant(nan);
+  }
+  test::move(view.cloud, Eigen::Affine3d(Eigen::Scaling(0.5)));
+  view.scene.camera.pose.translation() *= 0.5;
+  view.scene.kinds[0].radius *= 0.5;
+  view.scene.kinds[0].segments[0].length *= 0.5;
+  view.scene.kinds[0].length_min *= 0.5;
+  view.scene.support.shape = Support::Shape::plane;
+  view.scene.support.pose.translation().z() = -0.004;
+  EXPECT_EQ(text_of(model_of(view).findings), "");
+}
+
 TEST(Diagnose, SuggestsTheRadiusWhenNoTubeOfTheKnownOneIsThere) {
   View view = right_view();
   view.scene.kinds[0].radius = 0.04;
