@@ -16,6 +16,7 @@
 #include <deque>
 #include <exception>
 #include <memory>
+#include <new>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -136,6 +137,8 @@ Answer answer_of(const Task& task, std::size_t number) {
     return {Outcome::impossible, error.what()};
   } catch (const TaskStopped&) {
     return {Outcome::stopped, {}};
+  } catch (const std::bad_alloc&) {
+    return {Outcome::exception, "out of memory"};
   } catch (const std::exception& error) {
     return {Outcome::exception, error.what()};
   }

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <map>
+#include <new>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -153,6 +154,17 @@ TEST(Workers, AnExceptionIsTriedOnceMoreButNotWhatIsImpossible) {
             (std::map<std::size_t, std::string>{{0, "bad luck, the second time"}, {1, "no way"}}));
   EXPECT_EQ(files_below(directory.path()),
             (std::map<std::string, std::string>{{"0", "xx"}, {"1", "x"}, {"2", "x"}}));
+}
+
+TEST(Workers, ATaskThatNeedsTooMuchMemoryIsGivenUpAndTheOthersAreDone) {
+  Heard heard;
+  const auto need_memory = [](std::size_t task) {
+    if (task == 1) throw std::bad_alloc();
+    return std::string("done");
+  };
+  EXPECT_TRUE(run_in_workers(1, 3, need_memory, heard.observer()));
+  EXPECT_EQ(heard.done.size(), 2U);
+  EXPECT_EQ(heard.failed, (std::map<std::size_t, std::string>{{1, "out of memory, the second time"}}));
 }
 
 TEST(Workers, ARefusalOfTheSystemEndsTheRunAsWhatItIs) {
