@@ -54,18 +54,20 @@ std::vector<CaseId> samples(const std::vector<CaseId>& of_set) {
   return ids;
 }
 
+/// A case's recipe with nothing but its set, and that with no other number of tubes.
+Recipe of_case_alone(const Recipe& resolved, const CaseId& id) {
+  Recipe alone = resolved;
+  SetRecipe set = set_named(resolved, id.set);
+  set.tubes = {id.tubes};
+  set.drawn_tubes.reset();
+  alone.sets = {set};
+  return alone;
+}
+
 /// Makes cases and notes what they take and what is wrong with them.
 class Trial {
 public:
   explicit Trial(const Recipe& recipe) : recipe_(recipe) {}
-
-  void doubt(const CaseId& id) {
-    try {
-      for (const std::string& doubt : doubts(resolve(recipe_, id, draw(recipe_, id)))) warn(doubt);
-    } catch (const InputError& error) {
-      warn(fmt::format("{}: {}", name_of(id), error.problem()));
-    }
-  }
 
   void estimate(const std::vector<CaseId>& of_set) {
     Efforts efforts;
@@ -94,6 +96,7 @@ private:
 
   double make(const CaseId& id) {
     Recipe resolved = resolve(recipe_, id, draw(recipe_, id));
+    for (const std::string& doubt : doubts(of_case_alone(resolved, id))) warn(doubt);
     SimulatedScene scene = simulate(resolved, id);
     const double bytes = bytes_of(case_files(resolved, id, scene));
     look(scene.scan, resolved.scanner_name, id);
@@ -123,7 +126,6 @@ private:
 
 DryRun dry_run(const Recipe& recipe, const std::vector<CaseId>& wanted) {
   Trial trial(recipe);
-  trial.doubt(wanted.front());
   for (const SetRecipe& set : recipe.sets) {
     std::vector<CaseId> of_set;
     std::ranges::copy_if(wanted, std::back_inserter(of_set),

@@ -26,8 +26,13 @@ bool is_rim_in_view(const Camera& camera, const Bin& bin) {
   return true;
 }
 
+// A case's own tubes if they differ, or the kinds of the set.
+const std::vector<TubeSpec>& tubes_of(const SetRecipe& set) {
+  return set.each_tube.empty() ? set.kinds : set.each_tube;
+}
+
 double thinnest_radius(const SetRecipe& set) {
-  return std::ranges::min(set.kinds, {}, &TubeSpec::radius).radius;
+  return std::ranges::min(tubes_of(set), {}, &TubeSpec::radius).radius;
 }
 
 void doubt_pixels(const Recipe& recipe, const Camera& camera, const std::string& where, Doubts& found) {
@@ -61,9 +66,10 @@ double volume(const TubeSpec& spec) {
 void doubt_room(const Recipe& recipe, const SetRecipe& set, Doubts& found) {
   const Bin& bin = recipe.bin;
   const int tubes = std::ranges::max(numbers_of_tubes(set));
+  const std::vector<TubeSpec>& specs = tubes_of(set);
   double sum = 0;
-  for (const TubeSpec& kind : set.kinds) sum += volume(kind);
-  const double each = sum / static_cast<double>(set.kinds.size());
+  for (const TubeSpec& spec : specs) sum += volume(spec);
+  const double each = sum / static_cast<double>(specs.size());
   const double filled = tubes * each / (bin.length * bin.width * bin.height);
   if (filled > most_filled)
     found.push_back(

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "tanglebin/dataset/generate_dataset.hpp"
 #include "tests/dataset/small_recipe.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -15,6 +17,7 @@ using test::small_recipe;
 using test::TemporaryDirectory;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 Recipe with_tubes(const std::vector<int>& tubes) {
   Recipe recipe = small_recipe();
@@ -78,6 +81,39 @@ TEST(DryRun, WarnsOfWhatLooksWrongInTheRecipe) {
   recipe.camera.pose.translation().x() = 1.1;
   EXPECT_THAT(dry_run(recipe, cases(recipe)).warnings,
               Contains("scanner: part of the bin's rim is out of the camera's view"));
+}
+
+TEST(DryRun, WarnsOfEverySet) {
+  Recipe recipe = with_tubes({1});
+  recipe.sets.push_back(recipe.sets[0]);
+  recipe.sets[1].name = "thin";
+  recipe.sets[1].kinds[0].radius = 0.003;
+  const auto thin = "scanner: a tube of set thin on the floor is only";
+  EXPECT_THAT(dry_run(recipe, cases(recipe)).warnings, Contains(HasSubstr(thin)));
+  EXPECT_THAT(dry_run(recipe, {{"A", 1, 1}}).warnings, Not(Contains(HasSubstr(thin))));
+}
+
+TEST(DryRun, WarnsOfWhatTheNumbersThatASetDrawsMakeWrong) {
+  std::istringstream in(
+      "[scanner]\nwidth = 640\nheight = 400\nhfov_deg = 70\n"
+      "[[set]]\nname = \"wide\"\ntubes = [1]\n[set.tube]\nradius = 0.02\nmass = 0.5\nlength = "
+      "0.3\nbend_max_deg = 30\n"
+      "[[set]]\nname = \"drawn\"\ntubes = [3]\ncases = 1\n[set.tube]\n"
+      "radius = { min = 0.004, max = 0.016, per = \"tube\" }\nmass = 0.5\nlength = 0.3\nbend_max_deg = 30\n");
+  const Recipe recipe = read_recipe(in, "r.toml");
+  EXPECT_THAT(dry_run(recipe, cases(recipe)).warnings,
+              Contains(HasSubstr("scanner: a tube of set drawn on the floor is only")));
+}
+
+TEST(DryRun, WarnsOfMoreTubesThanTheBinHoldsWhereTheyAreWanted) {
+  Recipe recipe = with_tubes({1, 12});
+  recipe.attempts = 1;
+  recipe.settle.time_limit = 0.1;
+  recipe.bin.width = 0.2;
+  recipe.bin.height = 0.06;
+  const auto full = "set A: 12 tubes have";
+  EXPECT_THAT(dry_run(recipe, cases(recipe)).warnings, Contains(HasSubstr(full)));
+  EXPECT_THAT(dry_run(recipe, {{"A", 1, 1}}).warnings, Not(Contains(HasSubstr(full))));
 }
 
 }  // namespace
