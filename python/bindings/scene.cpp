@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "long_work.hpp"
 #include "tanglebin/experiment/run.hpp"
 #include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/model/locate/locate.hpp"
@@ -90,7 +91,9 @@ void bind_measurements(py::module_& module) {
         py::arg("scene"), py::arg("cloud"), text);
   };
   resolver(
-      "resolve", [](const auto&... known) { return resolve(known...); }, doc::scene::resolve);
+      "resolve",
+      [](const Scene& scene, const PointCloud& cloud) { return resolve(scene, cloud, ctrl_c_taker()); },
+      also(doc::scene::resolve, "Ctrl-C raises KeyboardInterrupt there.").c_str());
   resolver("resolve_without_tubes", &resolve_without_tubes, doc::scene::resolve_without_tubes);
 }
 

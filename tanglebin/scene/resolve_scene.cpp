@@ -217,8 +217,9 @@ void move(PointCloud& cloud, const Isometry3d& motion) {
 }
 
 RadiusEstimate radius_from(const PointCloud& cloud, const KnownScene& known,
-                           const std::optional<LengthRange>& range) {
-  return range ? estimate_radius(cloud, known, {range->min, range->max}) : estimate_radius(cloud, known);
+                           const std::optional<LengthRange>& range, const std::function<void()>& at_place) {
+  const RadiusRange radii = range ? RadiusRange{range->min, range->max} : RadiusRange{};
+  return estimate_radius(cloud, known, radii, at_place);
 }
 
 // A radius that is exactly known, or else 0.
@@ -232,7 +233,7 @@ TubeKind kind_of(const TubeClass& tubes) {
   return kind;
 }
 
-void find_kinds(const Scene& scene, ResolvedScene& resolved) {
+void find_kinds(const Scene& scene, const std::function<void()>& at_place, ResolvedScene& resolved) {
   const std::vector<TubeClass> classes = scene.tubes.empty() ? std::vector<TubeClass>(1) : scene.tubes;
   resolved.known.kinds.clear();
   for (const TubeClass& tubes : classes) {
@@ -242,7 +243,7 @@ void find_kinds(const Scene& scene, ResolvedScene& resolved) {
         throw InputError({"", 0, "radius"},
                          fmt::format("{} classes of tubes, one without a radius", classes.size()),
                          "a number for each; only the radius of a single class can be estimated");
-      const RadiusEstimate found = radius_from(resolved.cloud, resolved.known, tubes.radius);
+      const RadiusEstimate found = radius_from(resolved.cloud, resolved.known, tubes.radius, at_place);
       kind.radius = found.radius;
       resolved.notes.push_back(
           fmt::format("the radius is estimated: {:.5f} m, to {:.5f} m", found.radius, found.standard_error));
@@ -269,9 +270,9 @@ ResolvedScene resolve_without_tubes(const Scene& scene, const PointCloud& cloud)
   return resolved;
 }
 
-ResolvedScene resolve(const Scene& scene, const PointCloud& cloud) {
+ResolvedScene resolve(const Scene& scene, const PointCloud& cloud, const std::function<void()>& at_place) {
   ResolvedScene resolved = resolve_without_tubes(scene, cloud);
-  find_kinds(scene, resolved);
+  find_kinds(scene, at_place, resolved);
   validate(resolved.known);
   return resolved;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,9 @@ struct ResolvedScene {
 /// - the support: nothing;
 /// - the radius of a single class of tubes (estimate_radius()); a length may stay unknown.
 /// Throws InputError naming what is missing, and how to give it, if the cloud does not show it, and as
-/// validate(KnownScene) does.
-ResolvedScene resolve(const Scene& scene, const PointCloud& cloud);
+/// validate(KnownScene) does. Calls `at_place` as estimate_radius() does.
+ResolvedScene resolve(
+    const Scene& scene, const PointCloud& cloud, const std::function<void()>& at_place = [] {});
 
 /// The same without the tubes: the kinds are the default's.
 ResolvedScene resolve_without_tubes(const Scene& scene, const PointCloud& cloud);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -234,6 +235,16 @@ TEST_F(ToldScene, OfAnEmptyCloudNothingIsGuessed) {
   const ResolvedScene resolved = resolve(with_camera(whole_camera()), empty);
   EXPECT_TRUE(resolved.cloud.points.empty());
   EXPECT_THAT(resolved.notes, Each(Not(HasSubstr("millimetres"))));
+}
+
+TEST_F(ToldScene, TheEstimateOfARadiusEndsWhenAsked) {
+  Scene scene = with_camera({});
+  scene.tubes = {{}};
+  int places = 0;
+  const auto ask = [&] {
+    if (++places == 3) throw std::runtime_error("asked");
+  };
+  EXPECT_THAT([&] { resolve(scene, organized(), ask); }, testing::ThrowsMessage<std::runtime_error>("asked"));
 }
 
 }  // namespace

@@ -74,7 +74,8 @@ std::optional<Sighting> sighting(const PixelGrid& grid, std::size_t item, double
 
 // With all reaches in the range. A cylinder shows the same radius with every reach that suits it; an edge
 // shows another one with each.
-std::vector<Sighting> search(const PixelGrid& grid, const RadiusRange& range) {
+std::vector<Sighting> search(const PixelGrid& grid, const RadiusRange& range,
+                             const std::function<void()>& at_place) {
   constexpr double step = 1.25;
   constexpr std::size_t enough = 500;
   const double deviation_max = std::log(step);
@@ -84,6 +85,7 @@ std::vector<Sighting> search(const PixelGrid& grid, const RadiusRange& range) {
   const Everywhere places(grid.size());
   std::vector<Sighting> sightings;
   for (std::size_t i = 0; i < std::min(looked_at, places.size()) && sightings.size() < enough; ++i) {
+    at_place();
     for (const double reach : reaches) {
       const auto found = sighting(grid, places[i], reach, deviation_max);
       if (found) sightings.push_back(*found);
@@ -173,12 +175,14 @@ std::size_t separate_places(const PixelGrid& grid, const std::vector<Sighting>& 
 }
 
 // Around this radius only.
-std::vector<Sighting> look_closely(const PixelGrid& grid, double radius) {
+std::vector<Sighting> look_closely(const PixelGrid& grid, double radius,
+                                   const std::function<void()>& at_place) {
   constexpr double deviation_max = 0.25;
   constexpr std::size_t enough = 800;
   const Everywhere places(grid.size());
   std::vector<Sighting> sightings;
   for (std::size_t i = 0; i < std::min(looked_at, places.size()) && sightings.size() < enough; ++i) {
+    at_place();
     const auto found = sighting(grid, places[i], radius, deviation_max);
     if (found) sightings.push_back(*found);
   }
@@ -199,12 +203,13 @@ double scatter_about(double middle, std::vector<double> values) {
   return sigmas * median(std::move(values));
 }
 
-RadiusEstimate refined(const PixelGrid& grid, double radius, const RadiusRange& range) {
+RadiusEstimate refined(const PixelGrid& grid, double radius, const RadiusRange& range,
+                       const std::function<void()>& at_place) {
   constexpr int rounds_max = 10;
   constexpr double settled = 0.002;
   constexpr double uncertain = 0.04;
   for (int round = 1;; ++round) {
-    const std::vector<Sighting> sightings = look_closely(grid, radius);
+    const std::vector<Sighting> sightings = look_closely(grid, radius, at_place);
     const std::size_t places = separate_places(grid, sightings, 2 * radius);
     if (sightings.size() < sightings_min || places < places_min) give_up_without_tubes(grid, range);
     const double next = median(radii_of(sightings));
@@ -226,12 +231,13 @@ RadiusEstimate refined(const PixelGrid& grid, double radius, const RadiusRange& 
 
 }  // namespace
 
-RadiusEstimate estimate_radius(const PointCloud& cloud, const KnownScene& known, const RadiusRange& range) {
+RadiusEstimate estimate_radius(const PointCloud& cloud, const KnownScene& known, const RadiusRange& range,
+                               const std::function<void()>& at_place) {
   validate(range);
   const Seen seen = in_support_frame(cloud, known);
   const PixelGrid grid(picked(seen.cloud.points, crop(seen.cloud, seen.known.support, {}).kept),
                        seen.known.camera);
-  const std::vector<Sighting> sightings = search(grid, range);
+  const std::vector<Sighting> sightings = search(grid, range, at_place);
   if (sightings.size() < sightings_min) give_up_without_tubes(grid, range);
   const Histogram histogram(sightings);
   if (!histogram.has_a_peak())
@@ -242,7 +248,7 @@ RadiusEstimate estimate_radius(const PointCloud& cloud, const KnownScene& known,
     give_up(fmt::format("the cloud shows tubes of several radii, of about {} and {}", millimetres(thin),
                         millimetres(thick)));
   }
-  return refined(grid, radius, range);
+  return refined(grid, radius, range, at_place);
 }
 
 }  // namespace tanglebin

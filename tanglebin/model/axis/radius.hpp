@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"
@@ -26,8 +27,10 @@ struct RadiusEstimate {
 /// Planes and balls do not count, so the support need not be known. Arguments as for model_tubes();
 /// known.kinds is ignored. Throws InputError naming `radius` if the range is empty or outside of what
 /// known_scene.hpp allows, or if the cloud does not show one radius within it: too few points, too few of
-/// them on a tube, only flat surfaces, or tubes of several radii.
-RadiusEstimate estimate_radius(const PointCloud& cloud, const KnownScene& known,
-                               const RadiusRange& range = {});
+/// them on a tube, only flat surfaces, or tubes of several radii. Calls `at_place` before each place that it
+/// looks at; what it throws ends the estimate.
+RadiusEstimate estimate_radius(
+    const PointCloud& cloud, const KnownScene& known, const RadiusRange& range = {},
+    const std::function<void()>& at_place = [] {});
 
 }  // namespace tanglebin
