@@ -220,7 +220,7 @@ void print_text(const ExperimentArguments& arguments, const ExperimentSummary& s
   print_means(findings.means);
   print_failures(findings.failures, arguments.out);
   const RunProgress& run = summary.progress;
-  print_out("{}: {} cases modelled in {:.1f} s, {} already there{}\n", arguments.out, run.made,
+  print_out("{}: {} modelled in {:.1f} s, {} already there{}\n", arguments.out, counted(run.made, "case"),
             findings.seconds, run.found, summary.was_stopped() ? left_over(run) : "");
 }
 

@@ -19,6 +19,7 @@
 #include "tanglebin/cli/shard_option.hpp"
 #include "tanglebin/dataset/fill_dataset.hpp"
 #include "tanglebin/export/export_dataset.hpp"
+#include "tanglebin/report/text.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -61,8 +62,8 @@ std::string state_of(const ExportSummary& summary) {
 
 void print_text(const ExportArguments& arguments, const ExportSummary& summary, double seconds) {
   const RunProgress& run = summary.progress;
-  print_out("{}: {} cases exported in {:.1f} s, {} already there{}\n", arguments.out, run.made, seconds,
-            run.found, state_of(summary));
+  print_out("{}: {} exported in {:.1f} s, {} already there{}\n", arguments.out, counted(run.made, "case"),
+            seconds, run.found, state_of(summary));
 }
 
 void export_cases(const ExportArguments& arguments) {
