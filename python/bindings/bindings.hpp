@@ -25,6 +25,7 @@ void bind_model(py::module_& module);
 void bind_score(py::module_& module);
 void bind_dataset(py::module_& module);
 void bind_experiment(py::module_& module);
+void bind_calibrate(py::module_& module);
 void bind_index(py::module_& module);
 
 /// Calls `call` without the GIL, so that other Python threads run meanwhile.

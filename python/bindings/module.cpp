@@ -16,6 +16,7 @@ PYBIND11_MODULE(_core, module) {
   bind_score(module);
   bind_dataset(module);
   bind_experiment(module);
+  bind_calibrate(module);
   bind_index(module);
 }
 

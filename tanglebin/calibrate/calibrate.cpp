@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "tanglebin/io/json_record.hpp"
 #include "tanglebin/io/read_file.hpp"
 #include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/runs/interrupt_guard.hpp"
 #include "tanglebin/scan/sensor.hpp"
 
 namespace tanglebin {
@@ -23,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
 
 /// Thrown when the budget is spent.
 class BudgetSpent : public std::exception {};
@@ -121,7 +124,7 @@ public:
         training_(training),
         observer_(observer),
         begun_(begun),
-        workers_{.tick = [this] { observer_.progress(progress_); }, .stopping = observer.stopping},
+        workers_{.tick = [this] { report(); }, .stopping = observer.stopping},
         training_scores_("training", training.dataset, training.scenes, settings.scoring, journal, workers_),
         validation_scores_("validation", validation.dataset, validation.scenes, settings.scoring, journal,
                            workers_) {}
@@ -142,10 +145,9 @@ public:
 
 private:
   // Throws BudgetSpent before a heat that would begin beyond the budget.
-  std::vector<double> scores(const Parameters& parameters, std::size_t first, std::size_t count) {
-    if (is_budgeted_) expect_budget();
-    std::vector<double> result = training_scores_.scores(parameters, first, count);
-    progress_.evaluations = training_scores_.asked();
+  std::vector<double> scores(const Parameters& parameters, const std::vector<std::size_t>& scenes) {
+    if (is_searching_) expect_budget();
+    std::vector<double> result = training_scores_.scores(parameters, scenes);
     if (race_) progress_.best = race_->score();
     return result;
   }
@@ -153,24 +155,58 @@ private:
   void expect_budget() const {
     const CalibrationBudget& budget = settings_.budget;
     if (training_scores_.asked() >= budget.evaluations) throw BudgetSpent();
-    if (budget.time && Clock::now() - begun_ >= *budget.time) throw BudgetSpent();
+    if (budget.time && time_left() <= evaluations_of_the_end() * pace().value_or(Seconds{}))
+      throw BudgetSpent();
+  }
+
+  Seconds time_left() const { return *settings_.budget.time - (Clock::now() - begun_); }
+
+  // Of an evaluation in this call.
+  std::optional<Seconds> pace() const {
+    const std::size_t made = training_scores_.made() + validation_scores_.made();
+    if (made == 0) return std::nullopt;
+    return Seconds(Clock::now() - scored_since_) / static_cast<double>(made);
+  }
+
+  // What comes after the search, at most.
+  double evaluations_of_the_end() const {
+    const std::size_t changed = race_ ? groups_of_differences(race_->best(), settings_.start).size() : 0;
+    return static_cast<double>(changed * training_scores_.scenes() + 2 * validation_scores_.scenes());
+  }
+
+  double evaluations_to_come() const {
+    if (most_) return *most_ - static_cast<double>(progress_.evaluations);
+    const auto budget = static_cast<double>(settings_.budget.evaluations);
+    const double in_budget =
+        budget - static_cast<double>(training_scores_.answered()) + evaluations_of_the_end();
+    if (!settings_.budget.time || !pace()) return in_budget;
+    return std::min(in_budget, time_left() / *pace());
+  }
+
+  void report() {
+    progress_.evaluations = training_scores_.answered() + validation_scores_.answered();
+    const double to_come = std::max(0.0, evaluations_to_come());
+    progress_.most = progress_.evaluations + static_cast<std::size_t>(to_come);
+    progress_.left = pace() ? std::optional(to_come * *pace()) : std::nullopt;
+    observer_.progress(progress_);
   }
 
   // The best parameters, for the scenes to calibrate on.
   Parameters found() {
     progress_.step = "scoring the start";
-    const Scorer scorer = [this](const Parameters& parameters, std::size_t first, std::size_t count) {
-      return scores(parameters, first, count);
+    const Scorer scorer = [this](const Parameters& parameters, const std::vector<std::size_t>& scenes) {
+      return scores(parameters, scenes);
     };
     Race& race = race_.emplace(scorer, training_scores_.scenes(), settings_.start);
     progress_.before = progress_.best = race.score();
     try {
-      is_budgeted_ = true;
+      is_searching_ = true;
       improve(race);
     } catch (const BudgetSpent&) {
       // The best so far is what it comes to.
     }
-    is_budgeted_ = false;
+    is_searching_ = false;
+    most_ = static_cast<double>(training_scores_.asked()) + evaluations_of_the_end();
     progress_.step = "leaving out what does not help";
     keep_what_helps(race, settings_.start);
     return race.best();
@@ -186,16 +222,17 @@ private:
       race.run(with_links);
     }
     progress_.step = "tuning";
-    tune(race, tunable_parameters(settings_.scoring.method), [&](const std::vector<Sensitivity>& seen) {
-      if (sensitivities_.empty()) sensitivities_ = seen;
-    });
+    tune(race, tunable_parameters(settings_.scoring.method),
+         [&](const std::vector<Sensitivity>& seen) { sensitivities_ = seen; });
   }
 
   Reached validated(const Parameters& best) {
     progress_.step = "scoring the scenes that it was not calibrated on";
     const std::size_t count = validation_scores_.scenes();
-    const std::vector<double> before = validation_scores_.scores(settings_.start, 0, count);
-    const std::vector<double> after = validation_scores_.scores(best, 0, count);
+    std::vector<std::size_t> all(count);
+    std::iota(all.begin(), all.end(), 0);
+    const std::vector<double> before = validation_scores_.scores(settings_.start, all);
+    const std::vector<double> after = validation_scores_.scores(best, all);
     std::vector<double> differences(count);
     std::ranges::transform(after, before, differences.begin(), std::minus());
     return {.objective = name_of(settings_.scoring.objective),
@@ -223,7 +260,9 @@ private:
   CalibrationProgress progress_{};
   std::optional<Race> race_{};
   std::vector<Sensitivity> sensitivities_{};
-  bool is_budgeted_ = false;
+  Clock::time_point scored_since_ = Clock::now();
+  bool is_searching_ = false;
+  std::optional<double> most_{};  ///< evaluations, once the search is over
 };
 
 }  // namespace
@@ -231,6 +270,7 @@ private:
 std::optional<Calibration> calibrate(const Recipe& recipe, const CalibrationSettings& settings,
                                      const fs::path& directory, const CalibrationObserver& observer) {
   const Clock::time_point begun = Clock::now();
+  const InterruptGuard guard;
   expect_available(settings.scoring.method);
   make_directories(directory);
   const Journal journal(directory);

@@ -20,7 +20,8 @@ namespace tanglebin {
 /// When to stop the search. An evaluation is one scene modelled with one set of parameters.
 struct CalibrationBudget {
   std::size_t evaluations = 5000;
-  std::optional<std::chrono::duration<double>> time{};  ///< wall clock, of one call of calibrate()
+  /// Wall clock, of one call of calibrate() with all that it does, as far as that can be foreseen.
+  std::optional<std::chrono::duration<double>> time{};
 };
 
 /// How to calibrate.
@@ -34,9 +35,12 @@ struct CalibrationSettings {
 /// How far a calibration is.
 struct CalibrationProgress {
   std::string step{};           ///< "looking for what matters", …
-  std::size_t evaluations = 0;  ///< asked for, whether in this call or before
+  std::size_t evaluations = 0;  ///< done, whether in this call or before
+  std::size_t most = 0;         ///< with those to come: an estimate, mostly too large
   double before = 0;            ///< mean score of the start on the scenes to calibrate on; 0 if unknown
   double best = 0;              ///< the best mean so far
+  /// Until the end, at most, at the pace of this call; nothing before its first evaluation.
+  std::optional<std::chrono::duration<double>> left{};
 };
 
 /// Functions to call, in the calling process, as a calibration goes on.

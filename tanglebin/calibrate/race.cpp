@@ -20,12 +20,21 @@ double standard_error(const std::vector<double>& values) {
   return std::sqrt(sum / (count - 1) / count);
 }
 
-// Of the first scenes, as many as there are scores.
-std::vector<double> differences_of(const std::vector<double>& scores, const std::vector<double>& of_best) {
-  std::vector<double> differences;
-  differences.reserve(scores.size());
-  for (std::size_t i = 0; i < scores.size(); ++i) differences.push_back(scores[i] - of_best[i]);
-  return differences;
+std::vector<std::size_t> numbers_from(std::size_t first, std::size_t count) {
+  std::vector<std::size_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), first);
+  return numbers;
+}
+
+// Scenes with a loss, but not one that nothing can help.
+std::vector<std::size_t> typical_scenes(const std::vector<double>& scores, double mean) {
+  std::vector<std::size_t> order = numbers_from(0, scores.size());
+  const auto distance = [&](std::size_t scene) {
+    return std::pair(scores[scene] >= mean, std::abs(scores[scene] - mean));
+  };
+  std::ranges::stable_sort(order, {}, distance);
+  order.resize(std::min(scenes_of_glance, order.size()));
+  return order;
 }
 
 // Even two standard errors above what it seems.
@@ -39,12 +48,21 @@ bool is_worse(const std::vector<double>& differences) {
 Race::Race(Scorer scorer, std::size_t scenes, const Parameters& first)
     : scorer_(std::move(scorer)),
       best_(first),
-      scores_(scorer_(first, 0, scenes)),
-      score_(mean_of(scores_)) {}
+      scores_(scorer_(first, numbers_from(0, scenes))),
+      score_(mean_of(scores_)),
+      typical_(typical_scenes(scores_, score_)) {}
 
-double Race::glance(const Parameters& candidate) const {
+double Race::advantage(const Parameters& candidate, Look look) const {
   const std::size_t count = std::min(scenes_of_heat, scores_.size());
-  return mean_of(differences_of(scorer_(candidate, 0, count), scores_));
+  const std::vector<std::size_t> scenes = look == Look::glance ? typical_ : numbers_from(0, count);
+  return mean_of(gains(scorer_(candidate, scenes), scenes));
+}
+
+std::vector<double> Race::gains(const std::vector<double>& scores,
+                                const std::vector<std::size_t>& scenes) const {
+  std::vector<double> gains = scores;
+  for (std::size_t i = 0; i < scenes.size(); ++i) gains[i] -= scores_[scenes[i]];
+  return gains;
 }
 
 double Race::run(const Parameters& candidate) {
@@ -63,15 +81,14 @@ bool Race::take_if_as_good(const Parameters& candidate) {
 
 Race::Outcome Race::compete(const Parameters& candidate) const {
   Outcome outcome{};
-  while (outcome.scores.size() < scores_.size()) {
-    const std::size_t first = outcome.scores.size();
+  while (outcome.scores.size() < scores_.size() && !outcome.is_dropped) {
+    const std::size_t done = outcome.scores.size();
     const std::vector<double> more =
-        scorer_(candidate, first, std::min(scenes_of_heat, scores_.size() - first));
+        scorer_(candidate, numbers_from(done, std::min(scenes_of_heat, scores_.size() - done)));
     outcome.scores.insert(outcome.scores.end(), more.begin(), more.end());
-    const std::vector<double> differences = differences_of(outcome.scores, scores_);
-    outcome.mean = score_ + mean_of(differences);
-    outcome.is_dropped = outcome.scores.size() < scores_.size() && is_worse(differences);
-    if (outcome.is_dropped) break;
+    const std::vector<double> so_far = gains(outcome.scores, numbers_from(0, outcome.scores.size()));
+    outcome.mean = score_ + mean_of(so_far);
+    outcome.is_dropped = so_far.size() < scores_.size() && is_worse(so_far);
   }
   return outcome;
 }

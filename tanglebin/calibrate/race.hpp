@@ -11,12 +11,19 @@ namespace tanglebin {
 /// Values of parameters by name, of those that are not at their defaults.
 using Parameters = std::map<std::string, double>;
 
-/// The scores, 0 to 1, of parameters on some of the scenes: from number `first` on, `count` of them.
+/// The scores, 0 to 1, of parameters on some of the scenes, which are numbered from 0.
 using Scorer =
-    std::function<std::vector<double>(const Parameters& parameters, std::size_t first, std::size_t count)>;
+    std::function<std::vector<double>(const Parameters& parameters, const std::vector<std::size_t>& scenes)>;
 
-/// Scenes that a candidate is scored on before it is compared with the best.
+/// Scenes of a glance at a candidate, and those that it is scored on before it is compared with the best.
+inline constexpr std::size_t scenes_of_glance = 2;
 inline constexpr std::size_t scenes_of_heat = 10;
+
+/// How closely to look at a candidate that is not in the race.
+enum class Look {
+  glance,  ///< at two typical scenes: of those that score below the best's mean at first, the nearest to it
+  heat,    ///< at the scenes of a first heat
+};
 
 /// Compares candidates with the best so far on the same scenes, and drops those that are worse after a few of
 /// them, as in Maron and Moore 1997, "The racing algorithm". What the scorer throws leaves the best as it is.
@@ -30,8 +37,8 @@ public:
   /// The mean of the best over all scenes.
   double score() const { return score_; }
 
-  /// How much better a candidate is than the best on the first heat alone; negative if it is worse.
-  double glance(const Parameters& candidate) const;
+  /// How much better a candidate is than the best on a few scenes; negative if it is worse.
+  double advantage(const Parameters& candidate, Look look) const;
 
   /// The mean score of a candidate, which becomes the best if it is better on all scenes. If it is dropped
   /// before, its mean is estimated from its differences up to then.
@@ -47,6 +54,7 @@ private:
     double mean;
     bool is_dropped;
   };
+  std::vector<double> gains(const std::vector<double>& scores, const std::vector<std::size_t>& scenes) const;
   Outcome compete(const Parameters& candidate) const;
   void take(const Parameters& candidate, Outcome outcome);
 
@@ -54,6 +62,7 @@ private:
   Parameters best_;
   std::vector<double> scores_;
   double score_;
+  std::vector<std::size_t> typical_;  ///< scenes for a glance
 };
 
 }  // namespace tanglebin

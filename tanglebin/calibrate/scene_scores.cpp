@@ -66,18 +66,18 @@ SceneScores::SceneScores(std::string part, const Dataset& dataset, std::vector<C
   read_journal();
 }
 
-std::vector<double> SceneScores::scores(const Parameters& parameters, std::size_t first, std::size_t count) {
+std::vector<double> SceneScores::scores(const Parameters& parameters,
+                                        const std::vector<std::size_t>& scenes) {
   std::vector<CaseId> missing;
-  for (std::size_t i = first; i < first + count; ++i) {
-    const Key key{parameters, name_of(scenes_[i])};
+  for (const std::size_t scene : scenes) {
+    const Key key{parameters, name_of(scenes_[scene])};
     asked_.insert(key);
-    if (!known_.contains(key)) missing.push_back(scenes_[i]);
+    if (!known_.contains(key)) missing.push_back(scenes_[scene]);
   }
   if (!missing.empty()) make(parameters, missing);
   std::vector<double> scores;
-  scores.reserve(count);
-  for (std::size_t i = first; i < first + count; ++i)
-    scores.push_back(known_.at({parameters, name_of(scenes_[i])}));
+  scores.reserve(scenes.size());
+  for (const std::size_t scene : scenes) scores.push_back(known_.at({parameters, name_of(scenes_[scene])}));
   return scores;
 }
 
@@ -97,14 +97,20 @@ void SceneScores::make(const Parameters& parameters, const std::vector<CaseId>& 
     return fmt::format("{}", score_of_scene(dataset_, scenes[task], settings_, model_settings));
   };
   std::map<std::string, double> made;
+  awaited_ = scenes.size();
+  const auto take = [&](std::size_t task, double value) {
+    made[name_of(scenes[task])] = value;
+    --awaited_;
+    ++made_;
+  };
   WorkersObserver observer = observer_;
   observer.done = [&](const std::vector<TaskResult>& results) {
     for (const auto& [task, text, seconds] : results) {
       const bool is_in_time = seconds <= std::chrono::duration<double>(settings_.scene_limit).count();
-      made[name_of(scenes[task])] = is_in_time ? to_number<double>(text).value_or(0) : 0;
+      take(task, is_in_time ? to_number<double>(text).value_or(0) : 0);
     }
   };
-  observer.failed = [&](const TaskFailure& failure) { made[name_of(scenes[failure.task])] = 0; };
+  observer.failed = [&](const TaskFailure& failure) { take(failure.task, 0); };
   const bool is_done = run_in_workers(settings_.jobs, scenes.size(), score, observer, settings_.scene_limit);
   keep(parameters, made);
   if (!is_done) throw CalibrationStopped();

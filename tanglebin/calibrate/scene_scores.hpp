@@ -42,10 +42,12 @@ public:
 
   /// As a Scorer. Throws CalibrationStopped, InputError if a scene cannot be read, SystemError if the journal
   /// cannot be written.
-  std::vector<double> scores(const Parameters& parameters, std::size_t first, std::size_t count);
+  std::vector<double> scores(const Parameters& parameters, const std::vector<std::size_t>& scenes);
 
-  /// How many different scores it was asked for.
+  /// How many different scores it was asked for; how many of these are there, and were made here.
   std::size_t asked() const { return asked_.size(); }
+  std::size_t answered() const { return asked_.size() - awaited_; }
+  std::size_t made() const { return made_; }
 
 private:
   using Key = std::pair<Parameters, std::string>;  // with the scene's name
@@ -62,6 +64,8 @@ private:
   WorkersObserver observer_;
   std::map<Key, double> known_{};
   std::set<Key> asked_{};
+  std::size_t awaited_ = 0;
+  std::size_t made_ = 0;
 };
 
 }  // namespace tanglebin

@@ -61,8 +61,10 @@ std::vector<std::size_t> ranked(const std::vector<Sensitivity>& seen, const Amou
 
 void try_moves_that_help(Race& race, const std::vector<Parameter>& parameters,
                          const std::vector<Sensitivity>& seen, double step) {
-  for (const std::size_t i : ranked(seen, gain, 0))
-    race.run(moved(race.best(), parameters[i], seen[i].up > seen[i].down ? step : -step));
+  for (const std::size_t i : ranked(seen, gain, 0)) {
+    const Parameters candidate = moved(race.best(), parameters[i], seen[i].up > seen[i].down ? step : -step);
+    if (race.advantage(candidate, Look::heat) > 0) race.run(candidate);
+  }
 }
 
 void search_together(Race& race, const std::vector<Parameter>& parameters, double step) {
@@ -82,15 +84,24 @@ void search_together(Race& race, const std::vector<Parameter>& parameters, doubl
   });
 }
 
+// At most so many, those that move the score most first.
 std::vector<Parameter> those_that_matter(const std::vector<Parameter>& parameters,
-                                         const std::vector<Sensitivity>& seen) {
+                                         const std::vector<Sensitivity>& seen, std::size_t most) {
   constexpr double least_effect = 5e-4;
-  constexpr std::size_t most = 8;
   std::vector<Parameter> matter;
   for (const std::size_t i : ranked(seen, effect, least_effect)) {
     if (matter.size() < most) matter.push_back(parameters[i]);
   }
   return matter;
+}
+
+// What was seen at a glance, but for what was looked at closer.
+std::vector<Sensitivity> with_closer(std::vector<Sensitivity> seen, const std::vector<Sensitivity>& closer) {
+  for (Sensitivity& its : seen) {
+    const auto found = std::ranges::find(closer, its.name, &Sensitivity::name);
+    if (found != closer.end()) its = *found;
+  }
+  return seen;
 }
 
 // "axis.link.weights.junction.beyond" and all other weights belong together.
@@ -125,12 +136,12 @@ double place_of(const Parameter& parameter, double value) {
 }
 
 std::vector<Sensitivity> sensitivities(const Race& race, const std::vector<Parameter>& parameters,
-                                       double step) {
+                                       double step, Look look) {
   std::vector<Sensitivity> seen;
   seen.reserve(parameters.size());
   for (const Parameter& parameter : parameters) {
-    const double down = race.glance(moved(race.best(), parameter, -step));
-    const double up = race.glance(moved(race.best(), parameter, step));
+    const double down = race.advantage(moved(race.best(), parameter, -step), look);
+    const double up = race.advantage(moved(race.best(), parameter, step), look);
     seen.push_back({parameter.name, down, up});
   }
   return seen;
@@ -140,25 +151,36 @@ void tune(Race& race, const std::vector<Parameter>& parameters,
           const std::function<void(const std::vector<Sensitivity>&)>& looked) {
   constexpr double first_step = 0.2;
   constexpr double last_step = 0.05;
+  constexpr std::size_t most_looked_at = 16;
+  constexpr std::size_t most_searched = 8;
   for (double step = first_step; step >= last_step; step /= 2) {
-    const std::vector<Sensitivity> seen = sensitivities(race, parameters, step);
-    looked(seen);
+    const std::vector<Sensitivity> seen = sensitivities(race, parameters, step, Look::glance);
+    if (step == first_step) looked(seen);
     try_moves_that_help(race, parameters, seen, step);
-    const std::vector<Parameter> matter = those_that_matter(parameters, seen);
-    if (!matter.empty()) search_together(race, matter, step);
+    const std::vector<Parameter> first = those_that_matter(parameters, seen, most_looked_at);
+    const std::vector<Sensitivity> closer = sensitivities(race, first, step, Look::heat);
+    if (step == first_step) looked(with_closer(seen, closer));
+    try_moves_that_help(race, first, closer, step);
+    const std::vector<Parameter> searched = those_that_matter(first, closer, most_searched);
+    if (!searched.empty()) search_together(race, searched, step);
   }
 }
 
-void keep_what_helps(Race& race, const Parameters& start) {
+std::set<std::string> groups_of_differences(const Parameters& one, const Parameters& other) {
+  std::vector<Parameters::value_type> differences;
+  std::ranges::set_symmetric_difference(one, other, std::back_inserter(differences));
   std::set<std::string> groups;
-  for (const auto& [name, value] : race.best()) groups.insert(group_of(name));
-  for (const auto& [name, value] : start) groups.insert(group_of(name));
-  for (const std::string& group : groups) {
+  for (const auto& [name, value] : differences) groups.insert(group_of(name));
+  return groups;
+}
+
+void keep_what_helps(Race& race, const Parameters& start) {
+  for (const std::string& group : groups_of_differences(race.best(), start)) {
     const auto is_in_group = [&](const auto& parameter) { return group_of(parameter.first) == group; };
     Parameters without = race.best();
     std::erase_if(without, is_in_group);
     std::ranges::copy_if(start, std::inserter(without, without.end()), is_in_group);
-    if (without != race.best()) race.take_if_as_good(without);
+    race.take_if_as_good(without);
   }
 }
 

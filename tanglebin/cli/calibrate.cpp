@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -47,6 +48,7 @@ struct CalibrateArguments {
   int scenes = CalibrationSettings{}.scenes;
   int jobs = 1;
   bool json = false;
+  ProgressStyle progress = ProgressStyle::line;
 };
 
 // "5000" evaluations, or "90s", "10min", "1h" of time.
@@ -87,10 +89,10 @@ std::filesystem::path directory_of(const CalibrateArguments& arguments) {
   return std::filesystem::path(arguments.out).replace_extension(".calibration");
 }
 
-/// Shows how far the search is, on standard error: a line in place on a terminal, else one now and then.
+/// Shows how far the calibration is, once its scenes are there: as ProgressReport does for cases.
 class CalibrationReport {
 public:
-  explicit CalibrationReport(CalibrationBudget budget) : budget_(budget) {}
+  explicit CalibrationReport(ProgressStyle style) : style_(style) {}
   ~CalibrationReport() {
     if (is_shown_) print_error("\n");
   }
@@ -98,8 +100,9 @@ public:
   CalibrationReport& operator=(const CalibrationReport&) = delete;
 
   void show(const CalibrationProgress& progress) {
-    if (!search_begun_) search_begun_ = {Clock::now(), progress.evaluations};
-    if (is_terminal_) {
+    if (style_ == ProgressStyle::json) {
+      print_progress(progress);
+    } else if (is_terminal_) {
       print_error("\r{} \x1b[K", text(progress));
       is_shown_ = true;
     } else if (schedule_.is_due(seconds_since(begun_), share(progress))) {
@@ -108,34 +111,34 @@ public:
   }
 
 private:
-  double share(const CalibrationProgress& progress) const {
-    const double of_time = budget_.time ? seconds_since(begun_) / budget_.time->count() : 0;
-    const double of_evaluations =
-        static_cast<double>(progress.evaluations) / static_cast<double>(budget_.evaluations);
-    return std::min(1.0, std::max(of_time, of_evaluations));
+  static double share(const CalibrationProgress& progress) {
+    return static_cast<double>(progress.evaluations) /
+           static_cast<double>(std::max<std::size_t>(1, progress.most));
   }
 
-  // At the pace of this run's search, which began with what earlier ones had done.
-  std::optional<double> seconds_left(const CalibrationProgress& progress) const {
-    if (budget_.time) return budget_.time->count() - seconds_since(begun_);
-    const auto& [begun, done] = *search_begun_;
-    if (progress.evaluations == done) return std::nullopt;
-    const double pace = seconds_since(begun) / static_cast<double>(progress.evaluations - done);
-    return pace * static_cast<double>(budget_.evaluations - progress.evaluations);
-  }
-
-  std::string text(const CalibrationProgress& progress) const {
+  static std::string text(const CalibrationProgress& progress) {
     std::string result = fmt::format("{}: {} evaluations", progress.step, progress.evaluations);
     if (progress.before > 0)
       result += fmt::format(", {:.4f}, at first {:.4f}", progress.best, progress.before);
-    const std::optional<double> left = seconds_left(progress);
-    if (left && share(progress) < 1) result += fmt::format(", at most {} left", duration_text(*left));
+    if (progress.left) result += fmt::format(", at most {} left", duration_text(progress.left->count()));
     return result;
   }
 
-  CalibrationBudget budget_;
+  void print_progress(const CalibrationProgress& progress) {
+    if (Clock::now() - last_printed_ < std::chrono::seconds(1)) return;
+    last_printed_ = Clock::now();
+    nlohmann::ordered_json event{{"event", "evaluations"},       {"step", progress.step},
+                                 {"done", progress.evaluations}, {"most", progress.most},
+                                 {"before", progress.before},    {"best", progress.best},
+                                 {"remaining_seconds", nullptr}};
+    if (progress.left) event["remaining_seconds"] = progress.left->count();
+    print_json_line(event);
+    std::fflush(stdout);  // a program at the other end of a pipe gets it at once
+  }
+
+  ProgressStyle style_;
   Clock::time_point begun_ = Clock::now();
-  std::optional<std::pair<Clock::time_point, std::size_t>> search_begun_{};  ///< with the evaluations by then
+  Clock::time_point last_printed_{};
   LogSchedule schedule_{};
   bool is_terminal_ = isatty(STDERR_FILENO) != 0;
   bool is_shown_ = false;
@@ -143,8 +146,8 @@ private:
 
 std::optional<Calibration> run(const CalibrateArguments& arguments, const Recipe& recipe,
                                const CalibrationSettings& settings) {
-  ProgressReport scenes(ProgressStyle::line);
-  CalibrationReport report(settings.budget);
+  ProgressReport scenes(arguments.progress);
+  CalibrationReport report(arguments.progress);
   const CalibrationObserver observer{
       .scenes = scenes.observer(),
       .progress = [&](const CalibrationProgress& progress) { report.show(progress); },
@@ -168,16 +171,18 @@ nlohmann::ordered_json json_of(const Estimate& estimate) {
 
 void print_json(const CalibrateArguments& arguments, const Calibration& calibration) {
   const Reached& reached = *calibration.profile.reached;
-  nlohmann::ordered_json json{{"profile", arguments.out},
-                              {"evaluations", calibration.evaluations},
-                              {"better", calibration.is_better},
-                              {"objective", reached.objective},
-                              {"scenes", reached.scenes},
-                              {"before", json_of(reached.before)},
-                              {"after", json_of(reached.after)},
-                              {"difference", json_of(reached.difference)},
-                              {"parameters", calibration.profile.parameters},
-                              {"sensitivities", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json;
+  if (arguments.progress == ProgressStyle::json) json["event"] = "end";
+  json.update({{"profile", arguments.out},
+               {"evaluations", calibration.evaluations},
+               {"better", calibration.is_better},
+               {"objective", reached.objective},
+               {"scenes", reached.scenes},
+               {"before", json_of(reached.before)},
+               {"after", json_of(reached.after)},
+               {"difference", json_of(reached.difference)},
+               {"parameters", calibration.profile.parameters},
+               {"sensitivities", nlohmann::ordered_json::array()}});
   for (const auto& [name, down, up] : calibration.sensitivities)
     json["sensitivities"].push_back({{"parameter", name}, {"down", down}, {"up", up}});
   print_json_line(json);
@@ -222,7 +227,7 @@ void calibrate_method(const CalibrateArguments& arguments) {
   const std::optional<Calibration> calibration = run(arguments, recipe, settings);
   if (!calibration) throw CLI::RuntimeError(exit_interrupted());
   write_result(arguments, *calibration);
-  if (arguments.json)
+  if (arguments.json || arguments.progress == ProgressStyle::json)
     print_json(arguments, *calibration);
   else
     print_text(arguments, *calibration, seconds_since(start));
@@ -257,15 +262,17 @@ void add_calibrate(CLI::App& app) {
       ->check(whole_number(2, 100000))
       ->capture_default_str();
   command
-      ->add_option("--budget", arguments->budget,
-                   "When to stop the search: after so many evaluations, each a scene modelled once, or after "
-                   "a time such as 10min, which may give other parameters each time")
+      ->add_option(
+          "--budget", arguments->budget,
+          "When to stop the search: after so many evaluations, each a scene modelled once, or so that "
+          "all is done after a time such as 10min, which may give other parameters each time")
       ->capture_default_str();
   command
       ->add_option("--start", arguments->start,
                    "Profile to start from, and to compare with, instead of the defaults")
       ->option_text("FILE");
   add_jobs_option(*command, arguments->jobs);
+  add_progress_option(*command, arguments->progress);
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->footer(
       "Example:\n  tanglebin calibrate recipes/set-a.toml --out mine.toml --scenes 5 --budget 1000\n"

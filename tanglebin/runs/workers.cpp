@@ -24,6 +24,7 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/runs/interrupt_guard.hpp"
 
 namespace tanglebin {
 namespace {
@@ -33,28 +34,9 @@ using Clock = std::chrono::steady_clock;
 volatile std::sig_atomic_t interrupted = 0;
 int first_interrupt = 0;  // of the last run
 
-/// While it lives, SIGINT and SIGTERM are only remembered, in `interrupted`.
-class InterruptGuard {
-public:
-  InterruptGuard() {
-    interrupted = 0;
-    first_interrupt = 0;
-    struct sigaction remember {};
-    remember.sa_handler = [](int signal) { interrupted = signal; };
-    sigaction(SIGINT, &remember, &old_int_);
-    sigaction(SIGTERM, &remember, &old_term_);
-  }
-  ~InterruptGuard() {
-    sigaction(SIGINT, &old_int_, nullptr);
-    sigaction(SIGTERM, &old_term_, nullptr);
-  }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
-private:
-  struct sigaction old_int_ {};
-  struct sigaction old_term_ {};
-};
+int guards = 0;
+struct sigaction old_int {};
+struct sigaction old_term {};
 
 /// One end of the socket between the calling process and a worker. Both functions return false if the other
 /// end is closed.
@@ -381,6 +363,7 @@ void stop_if_asked() {
 bool run_in_workers(int jobs, std::size_t count, const Task& task, const WorkersObserver& observer,
                     TimeLimit limit) {
   const InterruptGuard guard;
+  first_interrupt = 0;
   Crew crew(count, task, observer, limit);
   for (int i = 0; i < jobs && static_cast<std::size_t>(i) < count; ++i) crew.hire();
   crew.hand_out_tasks();
@@ -388,6 +371,21 @@ bool run_in_workers(int jobs, std::size_t count, const Task& task, const Workers
   crew.rethrow();
   if (first_interrupt == 0) first_interrupt = interrupted;
   return first_interrupt == 0;
+}
+
+InterruptGuard::InterruptGuard() {
+  if (guards++ > 0) return;
+  interrupted = 0;
+  struct sigaction remember {};
+  remember.sa_handler = [](int signal) { interrupted = signal; };
+  sigaction(SIGINT, &remember, &old_int);
+  sigaction(SIGTERM, &remember, &old_term);
+}
+
+InterruptGuard::~InterruptGuard() {
+  if (--guards > 0) return;
+  sigaction(SIGINT, &old_int, nullptr);
+  sigaction(SIGTERM, &old_term, nullptr);
 }
 
 int interrupting_signal() {

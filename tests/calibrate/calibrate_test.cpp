@@ -153,7 +153,7 @@ TEST(SceneScores, CountAFailureAsZero) {
   const Journal journal(directory.path());
   const ScoringSettings settings;
   SceneScores scores("training", made->dataset, made->scenes, settings, journal, {});
-  EXPECT_THAT(scores.scores({{"axis.fragment.points_min", 1e6}}, 0, 2), testing::ElementsAre(0, 0));
+  EXPECT_THAT(scores.scores({{"axis.fragment.points_min", 1e6}}, {0, 1}), testing::ElementsAre(0, 0));
   EXPECT_EQ(scores.asked(), 2U);
 }
 
@@ -163,7 +163,7 @@ TEST(SceneScores, CountASceneThatTakesTooLongAsZero) {
   const Journal journal(directory.path());
   const ScoringSettings settings{.scene_limit = std::chrono::nanoseconds(1)};
   SceneScores scores("training", made->dataset, made->scenes, settings, journal, {});
-  EXPECT_THAT(scores.scores({}, 0, 2), testing::ElementsAre(0, 0));
+  EXPECT_THAT(scores.scores({}, {0, 1}), testing::ElementsAre(0, 0));
 }
 
 TEST(SceneScores, AreNoBetterIfTheFilterDropsTubes) {
@@ -173,7 +173,7 @@ TEST(SceneScores, AreNoBetterIfTheFilterDropsTubes) {
   const ScoringSettings settings;
   SceneScores scores("training", made->dataset, made->scenes, settings, journal, {});
   // Most points of a tube on the floor are nearer to it than this.
-  EXPECT_LT(scores.scores({{"axis.filter.margin", 0.02}}, 0, 1)[0], 0.95);
+  EXPECT_LT(scores.scores({{"axis.filter.margin", 0.02}}, {0})[0], 0.95);
 }
 
 TEST(Objectives, AreFoundByTheirNames) {

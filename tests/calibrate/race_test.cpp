@@ -16,10 +16,10 @@ public:
   std::size_t made = 0;
 
   Scorer scorer() {
-    return [this](const Parameters& parameters, std::size_t first, std::size_t count) {
+    return [this](const Parameters& parameters, const std::vector<std::size_t>& scenes) {
       std::vector<double> scores;
-      for (std::size_t i = first; i < first + count; ++i) scores.push_back(score(parameters, i));
-      made += count;
+      for (const std::size_t scene : scenes) scores.push_back(score(parameters, scene));
+      made += scenes.size();
       return scores;
     };
   }
@@ -76,13 +76,28 @@ TEST(Race, KeepsTheBestIfACandidateIsJustAsGoodUnlessAskedTo) {
   EXPECT_EQ(race.best(), (Parameters{{"other", 1}}));
 }
 
-TEST(Race, GlancesAtTheFirstHeatOnly) {
+TEST(Race, LooksAtTheFirstHeatOnly) {
   KnownScores known;
   const Race race(known.scorer(), scenes_of_race, {});
   known.made = 0;
-  EXPECT_NEAR(race.glance({{"gain", 0.2}}), 0.2, 1e-12);
-  EXPECT_NEAR(race.glance({{"late_gain", 0.2}}), 0, 1e-12);
+  EXPECT_NEAR(race.advantage({{"gain", 0.2}}, Look::heat), 0.2, 1e-12);
+  EXPECT_NEAR(race.advantage({{"late_gain", 0.2}}, Look::heat), 0, 1e-12);
   EXPECT_EQ(known.made, 2 * scenes_of_heat);
+}
+
+TEST(Race, GlancesAtScenesThatLoseSomethingButNotAll) {
+  const std::vector<double> first{1, 0.7, 1, 0, 0.8, 1};
+  std::vector<std::size_t> glanced_at;
+  const Race race(
+      [&](const Parameters& /*parameters*/, const std::vector<std::size_t>& scenes) {
+        glanced_at = scenes;
+        std::vector<double> scores;
+        for (const std::size_t scene : scenes) scores.push_back(first[scene]);
+        return scores;
+      },
+      first.size(), {});
+  race.advantage({}, Look::glance);
+  EXPECT_EQ(glanced_at, (std::vector<std::size_t>{1, 3}));  // the mean is 0.75
 }
 
 TEST(Race, ComparesFewerScenesThanAHeat) {
@@ -96,9 +111,9 @@ TEST(Race, KeepsTheBestWhenScoringEnds) {
   KnownScores known;
   const Scorer scorer = known.scorer();
   Race race(
-      [&](const Parameters& parameters, std::size_t first, std::size_t count) {
+      [&](const Parameters& parameters, const std::vector<std::size_t>& scenes) {
         if (known.made >= 2 * scenes_of_race + scenes_of_heat) throw std::runtime_error("no more");
-        return scorer(parameters, first, count);
+        return scorer(parameters, scenes);
       },
       scenes_of_race, {});
   race.run({{"gain", 0.1}});

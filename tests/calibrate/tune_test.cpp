@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "tanglebin/base/counter_random.hpp"
 
@@ -27,9 +28,9 @@ public:
   explicit Landscape(Parameters peak) : peak_(std::move(peak)) {}
 
   Scorer scorer() const {
-    return [this](const Parameters& parameters, std::size_t first, std::size_t count) {
+    return [this](const Parameters& parameters, const std::vector<std::size_t>& scenes) {
       std::vector<double> scores;
-      for (std::size_t i = first; i < first + count; ++i) scores.push_back(score(parameters, i));
+      for (const std::size_t scene : scenes) scores.push_back(score(parameters, scene));
       return scores;
     };
   }
@@ -88,8 +89,8 @@ TEST(TunableParameters, AreThoseOfTheMethodButForTheWeightsThatAreLearned) {
 TEST(Sensitivities, TellWhichWayHelpsAndWhatDoesNotMatter) {
   const Landscape landscape({{"paper.fit.trim", 0.008}});
   const Race race(landscape.scorer(), scenes_to_tune, {});
-  const std::vector<Sensitivity> seen =
-      sensitivities(race, {parameter_named("paper.fit.trim"), parameter_named("paper.fit.gap_max")}, 0.1);
+  const std::vector<Sensitivity> seen = sensitivities(
+      race, {parameter_named("paper.fit.trim"), parameter_named("paper.fit.gap_max")}, 0.1, Look::heat);
   EXPECT_GT(seen[0].up, 0);
   EXPECT_LT(seen[0].down, 0);
   EXPECT_EQ(seen[1].up, 0);
@@ -129,6 +130,22 @@ TEST(Tuning, ComesBackFromParametersThatAreHalvedOrDoubled) {
   EXPECT_LT(greatest - race.score(), 0.1 * (greatest - before));
 }
 
+TEST(Tuning, GainsWithFewEvaluations) {
+  const Landscape landscape({{"paper.fit.trim", 0.009}, {"paper.join.angle_max", 3.5}});
+  const Scorer scorer = landscape.scorer();
+  std::size_t left = 200;
+  Race race(
+      [&](const Parameters& parameters, const std::vector<std::size_t>& scenes) {
+        if (scenes.size() > left) throw std::runtime_error("no more");
+        left -= scenes.size();
+        return scorer(parameters, scenes);
+      },
+      scenes_to_tune, {});
+  const double before = race.score();
+  EXPECT_THROW(tune(race, tunable_parameters(Method::paper)), std::runtime_error);
+  EXPECT_GT(race.score(), before + 0.03);
+}
+
 TEST(Tuning, LeavesEverythingWhereNothingMatters) {
   const Landscape flat({});
   Race race(flat.scorer(), scenes_to_tune, {});
@@ -150,9 +167,9 @@ TEST(KeepingWhatHelps, TakesTheWeightsOfLinksAsOne) {
                                 {"axis.link.weights.junction.gap", 2}};
   std::vector<Parameters> asked;
   Race race(
-      [&](const Parameters& parameters, std::size_t /*first*/, std::size_t count) {
+      [&](const Parameters& parameters, const std::vector<std::size_t>& scenes) {
         asked.push_back(parameters);
-        return std::vector<double>(count, parameters.empty() ? 0.2 : 0.3);
+        return std::vector<double>(scenes.size(), parameters.empty() ? 0.2 : 0.3);
       },
       1, with_weights);
   keep_what_helps(race, {});

@@ -1,5 +1,6 @@
 // What happens to a run when somebody presses Ctrl-C, or when what it prints has no place to go.
 
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>
@@ -69,9 +70,11 @@ public:
 
   void interrupt(int signal = SIGINT) const { kill(process_, signal); }
 
-  void interrupt_after_a_case(int signal = SIGINT) {
+  void interrupt_after_a_case(int signal = SIGINT) { interrupt_after("case", signal); }
+
+  void interrupt_after(const std::string& event, int signal = SIGINT) {
     std::string text = line();
-    while (!text.empty() && text.find("\"event\":\"case\"") == std::string::npos) text = line();
+    while (!text.empty() && text.find("\"event\":\"" + event + "\"") == std::string::npos) text = line();
     interrupt(signal);
   }
 
@@ -169,6 +172,35 @@ TEST_F(Interruption, OfARepairEndsItWithoutAnotherVerification) {
   EXPECT_EQ(end.at("stopped"), true);
   EXPECT_GT(end.at("repaired"), 0);
   EXPECT_LT(end.at("repaired"), 300);
+}
+
+TEST_F(Interruption, OfACalibrationLeavesWhatIsScoredAndTheSameCommandGoesOn) {
+  write_bytes(path("seen.toml"), test::recipe_text({.seed = 3, .width = 480, .tubes = "[1, 3]", .cases = 2}));
+  const auto arguments = [&](const std::string& profile) {
+    return std::vector<std::string>{"calibrate", path("seen.toml"), "--out", path(profile), "--scenes",
+                                    "4",         "--budget",        "30"};
+  };
+  const auto command = [&](const std::string& profile) {
+    return fmt::format("{}", fmt::join(arguments(profile), " "));
+  };
+  ASSERT_EQ(run_program(command("whole.toml")).status, 0);
+
+  std::vector<std::string> with_events = arguments("mine.toml");
+  with_events.insert(with_events.end(), {"--progress", "json"});
+  RunningProgram program(with_events);
+  program.interrupt_after("evaluations");
+  program.last_line();
+  EXPECT_EQ(program.exit_status(), 130);
+  EXPECT_FALSE(fs::exists(path("mine.toml")));
+  const std::string scored = bytes_of(path("mine.calibration/journal.jsonl"));
+
+  const ProgramResult rest = run_program(command("mine.toml") + " --progress json");
+  EXPECT_EQ(rest.status, 0) << rest.err;
+  EXPECT_THAT(rest.out, HasSubstr("\"event\":\"end\""));
+  EXPECT_EQ(bytes_of(path("mine.toml")), bytes_of(path("whole.toml")));
+  const std::string all = bytes_of(path("mine.calibration/journal.jsonl"));
+  EXPECT_EQ(all.substr(0, scored.size()), scored);
+  EXPECT_GT(all.size(), scored.size());
 }
 
 TEST_F(Interruption, OfTheProgramThatReadsTheEventsLeavesTheRunAlone) {
