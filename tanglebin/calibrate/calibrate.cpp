@@ -180,7 +180,7 @@ private:
     const double in_budget =
         budget - static_cast<double>(training_scores_.answered()) + evaluations_of_the_end();
     if (!settings_.budget.time || !pace()) return in_budget;
-    return std::min(in_budget, time_left() / *pace());
+    return std::max(evaluations_of_the_end(), std::min(in_budget, time_left() / *pace()));
   }
 
   void report() {
@@ -214,6 +214,7 @@ private:
 
   void improve(Race& race) {
     if (settings_.scoring.method == Method::axis) {
+      expect_budget();
       progress_.step = "learning the weights of links";
       Parameters with_links = settings_.start;
       for (const auto& [name, weight] :

@@ -13,11 +13,16 @@
 namespace tanglebin {
 namespace {
 
-// As many as there are, one of each set and number of tubes before the second of any; in mixed order.
+// So many, one of each set and number of tubes before the second of any; what does not suffice for another of
+// each is spread evenly over them. In mixed order.
 std::vector<CaseId> scenes_of(const Recipe& recipe, int count) {
-  std::vector<CaseId> ids = cases(recipe);
-  std::ranges::stable_sort(ids, {}, &CaseId::number);
-  ids.resize(std::min(ids.size(), static_cast<std::size_t>(count)));
+  std::vector<CaseId> all = cases(recipe);
+  std::ranges::stable_sort(all, {}, &CaseId::number);
+  const auto kinds = static_cast<std::size_t>(std::ranges::count(all, 1, &CaseId::number));
+  const auto wanted = static_cast<std::size_t>(count);
+  const std::size_t rest = wanted % kinds;
+  std::vector<CaseId> ids(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(wanted - rest));
+  for (std::size_t i = 0; i < rest; ++i) ids.push_back(all[wanted - rest + i * kinds / rest]);
   Rng rng(recipe.seed);
   for (std::size_t i = ids.size(); i > 1; --i)
     std::swap(ids[i - 1], ids[static_cast<std::size_t>(uniform_integer(rng, 0, static_cast<int>(i) - 1))]);

@@ -147,6 +147,16 @@ TEST(CalibrationScenes, AreSpreadOverTheNumbersOfTubes) {
   EXPECT_EQ(std::ranges::count(made->scenes, 3, &CaseId::tubes), few_scenes / 2);
 }
 
+TEST(CalibrationScenes, AreSpreadOverTheNumbersOfTubesIfTheyAreFewer) {
+  const TemporaryDirectory directory;
+  Recipe recipe = test::finely_seen_recipe();
+  recipe.sets[0].tubes = {1, 2, 3, 4};
+  const auto made = make_scenes(recipe, "training", 2, directory.path(), 1, {});
+  ASSERT_TRUE(made);
+  EXPECT_EQ(std::ranges::count(made->scenes, 1, &CaseId::tubes), 1);
+  EXPECT_EQ(std::ranges::count(made->scenes, 3, &CaseId::tubes), 1);
+}
+
 TEST(SceneScores, CountAFailureAsZero) {
   const TemporaryDirectory directory;
   const auto made = make_scenes(test::finely_seen_recipe(), "training", 2, directory.path(), 1, {});

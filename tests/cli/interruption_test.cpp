@@ -176,14 +176,16 @@ TEST_F(Interruption, OfARepairEndsItWithoutAnotherVerification) {
 
 TEST_F(Interruption, OfACalibrationLeavesWhatIsScoredAndTheSameCommandGoesOn) {
   write_bytes(path("seen.toml"), test::recipe_text({.seed = 3, .width = 480, .tubes = "[1, 3]", .cases = 2}));
+  write_bytes(path("start.toml"), "format = 1\naxis.fragment.points_min = 2000\n");  // finds no tube
   const auto arguments = [&](const std::string& profile) {
-    return std::vector<std::string>{"calibrate", path("seen.toml"), "--out", path(profile), "--scenes",
-                                    "4",         "--budget",        "30"};
+    return std::vector<std::string>{"calibrate",        path("seen.toml"), "--out", path(profile), "--start",
+                                    path("start.toml"), "--scenes",        "2",     "--budget",    "200"};
   };
   const auto command = [&](const std::string& profile) {
     return fmt::format("{}", fmt::join(arguments(profile), " "));
   };
   ASSERT_EQ(run_program(command("whole.toml")).status, 0);
+  EXPECT_THAT(bytes_of(path("whole.toml")), HasSubstr("axis.fragment.points_min = "));
 
   std::vector<std::string> with_events = arguments("mine.toml");
   with_events.insert(with_events.end(), {"--progress", "json"});
