@@ -86,9 +86,10 @@ void expect_within(const char* name, double value, double least, double greatest
     throw InputError({"", 0, name}, fmt::format("{}", value), fmt::format("{} to {}", least, greatest));
 }
 
-CalibrationSettings settings_of(const std::string& method, const std::string& objective, double ratio,
-                                int scenes, std::size_t evaluations, std::optional<double> seconds,
-                                double time_limit, const Parameters& start, int jobs) {
+CalibrationSettings calibration_settings(const std::string& method, const std::string& objective,
+                                         double ratio, int scenes, std::size_t evaluations,
+                                         std::optional<double> seconds, double time_limit,
+                                         const Parameters& start, int jobs) {
   constexpr double longest = 1e9;
   expect_within("ratio", ratio, 1e-6, 1);
   expect_within("scenes", scenes, 2, 100000);
@@ -132,7 +133,7 @@ void bind_calibrations(py::module_& module) {
   const CalibrationSettings standard;
   py::class_<CalibrationSettings>(module, "CalibrationSettings", doc::CalibrationSettings)
       .def(
-          py::init(&settings_of), py::arg("method") = name_of(standard.scoring.method),
+          py::init(&calibration_settings), py::arg("method") = name_of(standard.scoring.method),
           py::arg("objective") = name_of(standard.scoring.objective),
           py::arg("ratio") = standard.scoring.ratio, py::arg("scenes") = standard.scenes,
           py::arg("evaluations") = standard.budget.evaluations, py::arg("seconds") = py::none(),
