@@ -26,7 +26,7 @@ def test_a_calibration_says_what_it_is_for_and_what_it_reached(calibration, reci
     assert isinstance(made_for, tanglebin.MadeFor) and made_for.bin == recipe.bin and made_for.image_width == 240
     (tubes,) = made_for.tubes
     assert isinstance(tubes, tanglebin.TubesMadeFor) and tubes.radius_min == tubes.radius_max == 0.0125
-    assert isinstance(reached, tanglebin.Reached) and (reached.objective, reached.scenes) == ("micro_recall", 2)
+    assert isinstance(reached, tanglebin.Reached) and (reached.objective, reached.scenes) == ("unmixed_recall", 2)
     assert isinstance(reached.after, tanglebin.Estimate) and reached.after.mean >= reached.before.mean
     assert calibration.is_better == (reached.difference.mean > 0)
     assert all(isinstance(its, tanglebin.Sensitivity) for its in calibration.sensitivities)

@@ -41,7 +41,7 @@ bool shows_a_tube(const Dataset& dataset, const CaseId& id) {
 Recipe recipe_of_part(Recipe recipe, const std::string& part, int count) {
   constexpr std::uint64_t greatest_seed = (std::uint64_t{1} << 63U) - 1;  // that TOML can hold
   recipe.seed = attempt_seed(recipe.seed, "calibration, " + part, 0, 0, 0) & greatest_seed;
-  recipe.output = {.bin_points = recipe.output.bin_points, .worlds = false};
+  recipe.output = {.bin_points = recipe.output.bin_points, .worlds = false, .properties = {.mixed = true}};
   for (SetRecipe& set : recipe.sets) set.cases = count;
   return recipe;
 }

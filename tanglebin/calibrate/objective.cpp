@@ -9,11 +9,14 @@
 namespace tanglebin {
 
 std::vector<Objective> objectives() {
-  return {Objective::micro_recall, Objective::panoptic_quality, Objective::complete_tubes};
+  return {Objective::unmixed_recall, Objective::micro_recall, Objective::panoptic_quality,
+          Objective::complete_tubes};
 }
 
 std::string name_of(Objective objective) {
   switch (objective) {
+    case Objective::unmixed_recall:
+      return "unmixed_recall";
     case Objective::micro_recall:
       return "micro_recall";
     case Objective::panoptic_quality:
@@ -35,6 +38,8 @@ Objective objective_named(const std::string& name) {
 
 double value_of(Objective objective, const CaseData& data, const ModelScore& score) {
   switch (objective) {
+    case Objective::unmixed_recall:
+      return score.labels.unmixed_recall.value_or(0);
     case Objective::micro_recall:
       return score.labels.micro_recall;
     case Objective::panoptic_quality:

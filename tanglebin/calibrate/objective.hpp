@@ -9,6 +9,7 @@ namespace tanglebin {
 
 /// What a calibration maximizes: the mean over scenes of a measure from 0 to 1 (docs/metrics.md).
 enum class Objective {
+  unmixed_recall,  ///< micro-recall without mixed points, which no parameters put right
   micro_recall,
   panoptic_quality,
   complete_tubes,  ///< the share of the true tubes that are complete

@@ -20,7 +20,7 @@ namespace tanglebin {
 /// How to score parameters on a scene.
 struct ScoringSettings {
   Method method = Method::axis;
-  Objective objective = Objective::micro_recall;
+  Objective objective = Objective::unmixed_recall;
   double ratio = 1;                                  ///< of the downsampling
   TimeLimit scene_limit = std::chrono::seconds(60);  ///< wall clock; a scene that takes longer scores 0
   int jobs = 1;                                      ///< worker processes

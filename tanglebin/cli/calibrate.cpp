@@ -40,7 +40,7 @@ struct CalibrateArguments {
   std::string recipe;
   std::string out;
   std::string method = name_of(Method::axis);
-  std::string objective = name_of(Objective::micro_recall);
+  std::string objective = name_of(Objective::unmixed_recall);
   std::string ratio = "1";
   std::string budget = "5000";
   std::string start;
@@ -248,7 +248,8 @@ void add_calibrate(CLI::App& app) {
   command->add_option("--method", arguments->method, "Method: axis or paper")->capture_default_str();
   command
       ->add_option("--objective", arguments->objective,
-                   "What to maximize: micro_recall, panoptic_quality or complete_tubes (docs/metrics.md)")
+                   "What to maximize: unmixed_recall, micro_recall, panoptic_quality or complete_tubes "
+                   "(docs/metrics.md)")
       ->capture_default_str();
   command
       ->add_option("--time-limit", arguments->time_limit,

@@ -38,7 +38,7 @@ protected:
 TEST_F(CalibrateCommand, WritesAProfileThatModelReads) {
   const ProgramResult run = run_program(arguments("mine.toml"));
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, AllOf(HasSubstr("micro_recall on 4 scenes that it was not calibrated on"),
+  EXPECT_THAT(run.out, AllOf(HasSubstr("unmixed_recall on 4 scenes that it was not calibrated on"),
                              HasSubstr("before"), HasSubstr("difference")));
   EXPECT_THAT(bytes_of(path("mine.toml")),
               AllOf(HasSubstr("method = \"axis\""), HasSubstr("[made_for]"), HasSubstr("[reached]")));
@@ -80,7 +80,8 @@ TEST_F(CalibrateCommand, RefusesWhatItCannotDo) {
   const std::pair<std::string, std::string> mistakes[] = {
       {"--budget 10weeks", "--budget: found '10weeks', expected evaluations, such as 5000, or a time"},
       {"--budget 0", "--budget: found '0'"},
-      {"--objective f1", "objective: found 'f1', expected micro_recall, panoptic_quality, complete_tubes"},
+      {"--objective f1",
+       "objective: found 'f1', expected unmixed_recall, micro_recall, panoptic_quality, complete_tubes"},
       {"--method best", "method: found 'best'"},
       {"--downsample 0.1,0.3", "--downsample: found 2 ratios, expected one"},
       {"--start " + path("paper.toml"), "paper.toml: method: found paper, expected a profile for axis"}};
