@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 5> measure_names = {"micro_recall", "mean_iou", "f1", "panoptic_quality",
-                                                      "adjusted_rand_index"};
+constexpr std::array<const char*, 6> measure_names = {
+    "micro_recall", "mean_iou", "f1", "panoptic_quality", "adjusted_rand_index", "unmixed_recall"};
 using Measures = std::array<double, measure_names.size()>;
 
 /// The runs of a method on a scene, by scanner and ratio.
@@ -27,10 +27,18 @@ struct SceneRuns {
 };
 using Scenes = std::map<CaseId, SceneRuns>;
 
+// Where no points are marked as mixed, the micro-recall is that without them.
+double measure_of(const JsonRecord& record, const std::string& name) {
+  if (name != "unmixed_recall") return record.number(name, -1, 1);
+  const std::optional<double> recall =
+      record.has(name) ? record.number_or_null(name, 0, 1) : std::optional<double>{};
+  return recall ? *recall : record.number("micro_recall", 0, 1);
+}
+
 Measures measures_of(const RunResult& result, const JsonRecord& record) {
   Measures measures{};
   if (result.failure) return measures;
-  for (std::size_t i = 0; i < measures.size(); ++i) measures[i] = record.number(measure_names[i], -1, 1);
+  for (std::size_t i = 0; i < measures.size(); ++i) measures[i] = measure_of(record, measure_names[i]);
   return measures;
 }
 

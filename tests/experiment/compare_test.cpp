@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "tests/support/complaint.hpp"
@@ -17,7 +18,8 @@ using test::complaint;
 using test::TemporaryDirectory;
 using testing::HasSubstr;
 
-/// A results directory with the micro-recalls that it is told; the other measures are half of them.
+/// A results directory with the micro-recalls that it is told; the other measures are half of them. If it is
+/// told a recall without mixed points, they are marked.
 class Results {
 public:
   explicit Results(const std::vector<std::string>& methods, const std::string& recipe = "r") {
@@ -25,11 +27,14 @@ public:
     test::write_bytes(directory_ / "experiment.json", experiment.dump());
   }
 
-  void add(const std::string& method, int number, double ratio, double micro_recall) {
+  void add(const std::string& method, int number, double ratio, double micro_recall,
+           std::optional<double> unmixed_recall = std::nullopt) {
     nlohmann::json line = head(method, number, ratio);
     line["micro_recall"] = micro_recall;
     for (const char* measure : {"mean_iou", "f1", "panoptic_quality", "adjusted_rand_index"})
       line[measure] = micro_recall / 2;
+    line["unmixed_recall"] = nullptr;
+    if (unmixed_recall) line["unmixed_recall"] = *unmixed_recall;
     write(line);
   }
 
@@ -84,6 +89,18 @@ TEST(Compare, PairsScenesAndCountsTheMeanOverTheirRatios) {
   EXPECT_EQ(comparison.better[0].difference(), 0.25);
   ASSERT_EQ(comparison.worse.size(), 1U);
   EXPECT_EQ(comparison.worse[0].scene.number, 2);
+}
+
+TEST(Compare, TakesTheMicroRecallForThatWithoutMixedPointsWhereNoneAreMarked) {
+  Results results({"axis", "mine"});
+  results.add("axis", 1, 0.3, 0.5, 0.75);
+  results.add("mine", 1, 0.3, 0.5, 1);
+  results.add("axis", 2, 0.3, 0.25);
+  results.add("mine", 2, 0.3, 0.5);
+  const MeasureDifference without_mixed = compare(results.of("axis"), results.of("mine")).measures.at(5);
+  EXPECT_EQ(without_mixed.measure, "unmixed_recall");
+  EXPECT_DOUBLE_EQ(without_mixed.baseline, 0.5);
+  EXPECT_DOUBLE_EQ(without_mixed.other, 0.75);
 }
 
 TEST(Compare, AFailedRunFoundNothingAndASceneWithoutAVisibleTubeDoesNotCount) {
