@@ -5,6 +5,7 @@
 
 #include "tanglebin/cli/exit_status.hpp"
 #include "tanglebin/cli/print.hpp"
+#include "tanglebin/report/text.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -27,16 +28,17 @@ nlohmann::ordered_json json_of(const FillReport& report, const FillSummary& summ
 
 std::string text_of(const std::optional<DatasetSummary>& dataset) {
   if (!dataset) return "other shards are to come or in progress; the last to end completes the manifest";
-  const std::string cases = dataset->is_complete() ? fmt::format("complete, {} cases", dataset->cases)
-                                                   : fmt::format("{} of the recipe's {} cases",
-                                                                 dataset->cases, dataset->recipe_cases);
+  const std::string cases =
+      dataset->is_complete()
+          ? fmt::format("complete, {}", counted(dataset->cases, "case"))
+          : fmt::format("{} of the recipe's {}", dataset->cases, counted(dataset->recipe_cases, "case"));
   return fmt::format("{}, digest {}", cases, dataset->digest);
 }
 
 void print_text(const FillReport& report, const FillSummary& summary, double seconds) {
   const RunProgress& run = summary.progress;
-  print_out("{}: {} cases {} in {:.1f} s, {} already there, {} attempts rejected", report.directory, run.made,
-            report.verb, seconds, run.found, run.rejected);
+  print_out("{}: {} {} in {:.1f} s, {} already there, {} rejected", report.directory,
+            counted(run.made, "case"), report.verb, seconds, run.found, counted(run.rejected, "attempt"));
   if (run.failed > 0) print_out(", {} failed", run.failed);
   if (summary.was_stopped()) print_out("{}", left_over(run));
   print_out("\n{}: {}\n", report.directory, text_of(summary.dataset));

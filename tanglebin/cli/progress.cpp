@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tanglebin/report/text.hpp"
+
 namespace tanglebin::cli {
 
 void RemainingTime::begin(const std::vector<CaseId>& cases) {
@@ -40,11 +42,12 @@ double rate(const RunProgress& progress, double elapsed) {
 }
 
 std::string progress_text(const RunProgress& progress, const RemainingTime& remaining, double elapsed) {
-  std::string text = fmt::format("{} of {} cases", progress.found + ended(progress), progress.wanted);
+  std::string text =
+      fmt::format("{} of {}", progress.found + ended(progress), counted(progress.wanted, "case"));
   if (const auto seconds = remaining.seconds(elapsed))
     text += fmt::format(", {:.2g}/s, {} left", rate(progress, elapsed), duration_text(*seconds));
-  if (progress.rejected > 0) text += fmt::format(", {} attempts rejected", progress.rejected);
-  if (progress.failed > 0) text += fmt::format(", {} cases failed", progress.failed);
+  if (progress.rejected > 0) text += fmt::format(", {} rejected", counted(progress.rejected, "attempt"));
+  if (progress.failed > 0) text += fmt::format(", {} failed", counted(progress.failed, "case"));
   return text;
 }
 

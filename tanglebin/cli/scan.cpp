@@ -25,6 +25,7 @@
 #include "tanglebin/io/ply.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 #include "tanglebin/report/picture_of_scan.hpp"
+#include "tanglebin/report/text.hpp"
 #include "tanglebin/scan/scan_output.hpp"
 #include "tanglebin/scan/scanner.hpp"
 
@@ -92,8 +93,8 @@ void print_summary(const ScanArguments& arguments, const Scan& view, const std::
   }
   std::size_t tube_points = 0;
   for (const Tube& tube : tubes) tube_points += points[static_cast<std::size_t>(tube.id)];
-  print_out("{}: {} points on {} tubes, {} on the bin{}\n", arguments.out, tube_points, tubes.size(),
-            points[bin_label], arguments.with_bin ? "" : " (left out)");
+  print_out("{}: {} on {}, {} on the bin{}\n", arguments.out, counted(tube_points, "point"),
+            counted(tubes.size(), "tube"), points[bin_label], arguments.with_bin ? "" : " (left out)");
 }
 
 // A manifest has 16 hexadecimal digits, which 0.1.0 took without 0x.

@@ -22,6 +22,7 @@
 #include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/io/read_cloud.hpp"
 #include "tanglebin/io/read_tubes.hpp"
+#include "tanglebin/report/text.hpp"
 #include "tanglebin/scan/scan.hpp"
 #include "tanglebin/score/score_clouds.hpp"
 #include "tanglebin/score/score_tubes.hpp"
@@ -115,9 +116,10 @@ void print_text(const Score& score, const std::optional<TubesScore>& tubes_score
   print_out("F1 at IoU 0.5        {:.3f}  precision {:.3f}, recall {:.3f}\n", f1, precision, recall);
   print_out("panoptic quality     {:.3f}\n", panoptic_quality);
   print_out("adjusted Rand index  {:.3f}\n", score.adjusted_rand_index);
-  print_out("{} tubes, {} labels: {} correct, {} over-segmented, {} under-segmented, {} missed, {} noise\n",
-            score.tubes.size(), score.confusion.segments.size(), instances.correct, instances.over_segmented,
-            instances.under_segmented, instances.missed, instances.noise);
+  print_out("{}, {}: {} correct, {} over-segmented, {} under-segmented, {} missed, {} noise\n",
+            counted(score.tubes.size(), "tube"), counted(score.confusion.segments.size(), "label"),
+            instances.correct, instances.over_segmented, instances.under_segmented, instances.missed,
+            instances.noise);
   if (tubes_score) print_tubes_score(*tubes_score);
   print_tubes(score);
 }

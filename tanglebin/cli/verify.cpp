@@ -16,6 +16,7 @@
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/repair_dataset.hpp"
 #include "tanglebin/dataset/verify_dataset.hpp"
+#include "tanglebin/report/text.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -70,12 +71,12 @@ nlohmann::ordered_json json_of(const VerifyArguments& arguments, const VerifySum
 void print_text(const VerifyArguments& arguments, const VerifySummary& summary, std::size_t repaired) {
   for (const auto& [where, what] : summary.notes) print_out("{}: {}\n", where, what);
   for (const auto& [where, what] : summary.faults) print_out("{}: {}\n", where, what);
-  print_out("{}: {} of the recipe's {} cases, digest {}; ", arguments.dataset, summary.cases,
-            cases(summary.recipe).size(), summary.digest);
-  if (repaired > 0) print_out("{} cases regenerated, ", repaired);
+  print_out("{}: {} of the recipe's {}, digest {}; ", arguments.dataset, summary.cases,
+            counted(cases(summary.recipe).size(), "case"), summary.digest);
+  if (repaired > 0) print_out("{} regenerated, ", counted(repaired, "case"));
   print_out("{}\n", summary.was_stopped      ? "stopped"
                     : summary.faults.empty() ? "no faults found"
-                                             : fmt::format("{} faults found", summary.faults.size()));
+                                             : counted(summary.faults.size(), "fault") + " found");
 }
 
 void verify_and_report(const VerifyArguments& arguments) {

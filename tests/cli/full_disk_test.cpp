@@ -18,6 +18,7 @@ namespace tanglebin {
 namespace {
 
 namespace fs = std::filesystem;
+using test::bytes_of;
 using test::files_below;
 using test::ProgramResult;
 using test::run_program;
@@ -84,6 +85,50 @@ TEST_F(FullDisk, IsAnErrorThatLosesNoFinishedCaseAndTheRunGoesOnWhenThereIsSpace
   EXPECT_EQ(rest.status, 0) << rest.err;
   EXPECT_THAT(rest.out, testing::Not(HasSubstr(": 40 cases generated")));
   EXPECT_EQ(dataset_in(disk_ / "dataset"), whole);
+}
+
+TEST_F(FullDisk, EndsAnExportWhichGoesOnWhenThereIsSpace) {
+  const std::string dataset = (directory_ / "whole").string();
+  ASSERT_EQ(generate(dataset).status, 0);
+  const auto export_to = [&](const fs::path& out) {
+    return run_program("export " + dataset + " --format numpy --jobs 2 --out " + out.string());
+  };
+  ASSERT_EQ(export_to(directory_ / "export").status, 0);
+  const auto whole = files_below(directory_ / "export");
+
+  write_bytes(disk_ / "other", std::string(900'000, 'x'));  // an export is smaller than the disk
+  const ProgramResult full = export_to(disk_ / "export");
+  EXPECT_EQ(full.status, 5);
+  EXPECT_THAT(full.err, HasSubstr("No space left on device"));
+  EXPECT_EQ(std::ranges::count(full.err, '\n'), 1) << full.err;
+  const auto scenes = files_below(disk_ / "export/A1");
+  EXPECT_LT(scenes.size(), 40U);
+  for (const auto& [name, bytes] : scenes) EXPECT_EQ(bytes, whole.at("A1/" + name)) << name;
+
+  ASSERT_TRUE(mount_with("size=64m", MS_REMOUNT));
+  EXPECT_EQ(export_to(disk_ / "export").status, 0);
+  EXPECT_EQ(files_below(disk_ / "export"), whole);
+}
+
+TEST_F(FullDisk, EndsAnExperimentWhichGoesOnWhenThereIsSpace) {
+  const std::string dataset = (directory_ / "whole").string();
+  ASSERT_EQ(generate(dataset).status, 0);
+  // Labelled clouds are kept too: more than there is space for.
+  const auto experiment = [&](const fs::path& out) {
+    return run_program("experiment " + dataset + " --downsample 0.5,1 --keep --jobs 2 --out " + out.string());
+  };
+  ASSERT_EQ(experiment(directory_ / "results").status, 0);
+
+  const ProgramResult full = experiment(disk_ / "results");
+  EXPECT_EQ(full.status, 5);
+  EXPECT_THAT(full.err, HasSubstr("No space left on device"));
+
+  ASSERT_TRUE(mount_with("size=64m", MS_REMOUNT));
+  const ProgramResult rest = experiment(disk_ / "results");
+  EXPECT_EQ(rest.status, 0) << rest.err;
+  for (const char* const file : {"results.csv", "tubes.csv"}) {
+    EXPECT_EQ(bytes_of(disk_ / "results" / file), bytes_of(directory_ / "results" / file)) << file;
+  }
 }
 
 }  // namespace

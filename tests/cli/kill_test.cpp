@@ -65,19 +65,35 @@ bend_max_deg = 30
 
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
 
-  pid_t start_run() const {
-    const std::string file = path("recipe.toml");
-    const std::string out = path("disturbed");
+  pid_t start_run(std::vector<std::string> arguments) const {
+    std::vector<char*> words;
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
     std::fflush(stdout);  // or what is buffered comes out of both
     const pid_t process = fork();
     if (process == 0) {
       freopen("/dev/null", "w", stdout);
       freopen(path("errors").c_str(), "a", stderr);
-      execl(TANGLEBIN_PROGRAM, "tanglebin", "generate", file.c_str(), "--jobs", "2", "--out", out.c_str(),
-            nullptr);
+      execv(TANGLEBIN_PROGRAM, words.data());
       _exit(127);
     }
     return process;
+  }
+
+  // The same command again and again, until it has come to its end. Returns the number of its runs.
+  int run_disturbed(const std::vector<std::string>& arguments) {
+    int runs = 0;
+    for (int status = -1; status != 0; ++runs) {
+      status = disturb(start_run(arguments));
+      // A case whose worker was killed twice was given up; the next run makes it.
+      const bool goes_on =
+          WIFSIGNALED(status) || WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == cli::exit_cases_failed;
+      if (!goes_on) {
+        ADD_FAILURE() << "status " << status << ": " << bytes_of(path("errors"));
+        break;
+      }
+    }
+    return runs;
   }
 
   // Kills the run or one of its workers at random moments until the run has ended; returns its status.
@@ -115,19 +131,31 @@ TEST_F(Kill, AtAnyMomentLosesNoFinishedCaseAndLeavesNothingOver) {
   int datasets = 0;
   int runs = 0;
   for (; kills_ < kills_wanted(); ++datasets) {
-    for (int status = -1; status != 0; ++runs) {
-      status = disturb(start_run());
-      // A case whose worker was killed twice was given up; the next run makes it.
-      const bool goes_on =
-          WIFSIGNALED(status) || WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == cli::exit_cases_failed;
-      ASSERT_TRUE(goes_on) << "status " << status << ": " << bytes_of(path("errors"));
-    }
+    runs += run_disturbed(
+        {"tanglebin", "generate", path("recipe.toml"), "--jobs", "2", "--out", path("disturbed")});
+    ASSERT_FALSE(HasFailure());
     ASSERT_EQ(everything_in(path("disturbed")), expected) << "after " << kills_ << " kills";
     ASSERT_EQ(run_program("verify " + path("disturbed")).status, 0);
     fs::remove_all(path("disturbed"));
   }
   std::cout << kills_ << " kills in " << runs << " runs of " << datasets << " datasets\n";
   EXPECT_GT(runs, datasets);  // some kills did end a run
+}
+
+TEST_F(Kill, OfAnExportLosesNothingOfItEither) {
+  const std::string dataset = path("undisturbed");
+  const Clock::time_point start = Clock::now();
+  ASSERT_EQ(run_program("export " + dataset + " --format hdf5 --jobs 2 --out " + path("export")).status, 0);
+  undisturbed_seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
+  const auto expected = everything_in(path("export"));
+  int runs = 0;
+  for (int exports = 0; kills_ < 10 || runs == exports; ++exports) {
+    runs += run_disturbed(
+        {"tanglebin", "export", dataset, "--format", "hdf5", "--jobs", "2", "--out", path("disturbed")});
+    ASSERT_FALSE(HasFailure());
+    ASSERT_EQ(everything_in(path("disturbed")), expected) << "after " << kills_ << " kills";
+    fs::remove_all(path("disturbed"));
+  }
 }
 
 }  // namespace

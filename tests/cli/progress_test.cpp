@@ -79,6 +79,14 @@ TEST(ProgressText, SaysWhatIsDoneWhatFailedAndWhatIsLeft) {
             "120 of 640 cases, 2/s, 1 min 30 s left, 3 attempts rejected, 2 cases failed");
 }
 
+TEST(ProgressText, OneCaseIsNotOneCases) {
+  RemainingTime remaining;
+  remaining.begin({{"A", 1, 1}});
+  EXPECT_EQ(progress_text({.wanted = 1}, remaining, 1), "0 of 1 case");
+  const RunProgress failed{.wanted = 1, .failed = 1, .rejected = 1};
+  EXPECT_THAT(progress_text(failed, remaining, 1), testing::HasSubstr("1 attempt rejected, 1 case failed"));
+}
+
 TEST(DurationText, HasTwoUnits) {
   EXPECT_EQ(duration_text(44.6), "45 s");
   EXPECT_EQ(duration_text(59.7), "1 min 00 s");
