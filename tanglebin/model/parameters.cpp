@@ -154,6 +154,13 @@ void for_each_parameter(Settings& settings, Visit visit) {
   visit({"axis.link.hidden_stretch", "a hidden way may be longer by this factor than straight ahead",
          by_steps(1, 6)},
         settings.axis.link.hidden_stretch);
+  visit({"axis.link.strangeness_max",
+         "how unlike the whole chains of the scan a chain may be, as a multiple of how unlike they are to "
+         "each other",
+         by_factors(0.5, 8)},
+        settings.axis.link.strangeness_max);
+  visit({"axis.link.strangeness_weight", "log odds that a unit above it costs", by_steps(0, 16)},
+        settings.axis.link.strangeness_weight);
   for (const LinkKind kind : link_kinds) {
     for (std::size_t i = 0; i < link_features; ++i)
       visit({name_of_weight(kind, i), "log odds per unit of this feature of a link"},

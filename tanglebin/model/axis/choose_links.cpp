@@ -12,7 +12,9 @@
 
 #include "tanglebin/model/axis/assemble.hpp"
 #include "tanglebin/model/axis/beyond_ends.hpp"
+#include "tanglebin/model/axis/line_tree.hpp"
 #include "tanglebin/model/axis/matching.hpp"
+#include "tanglebin/model/axis/tube_shapes.hpp"
 
 namespace tanglebin {
 namespace {
@@ -38,20 +40,39 @@ struct Candidates {
   std::size_t vertices = 0;
   std::vector<std::uint64_t> numbers = {};  ///< random, one per link; no two sets of links have the same sum
   std::vector<Part> alone = {};             ///< each fragment by itself
+  TubeShapes shapes = {};                   ///< what chains look like
 };
 
-// The shape cost of a part of a chain: of what it lacks, more than can be hidden beyond its ends. It may have
-// been misjudged that an end is free, so the cost has a limit.
-double shape_cost(const Candidates& candidates, const Part& chain) {
+// The cost of what a part of a chain lacks, more than can be hidden beyond its ends. It may have been
+// misjudged that an end is free, so the cost has a limit.
+double cost_of_length(const Candidates& candidates, const Part& chain) {
   constexpr double cost_max = 10;
   const double unseen = unseen_length(chain.length, chain.hidden, candidates.kind, candidates.settings);
   return std::clamp(unseen / (candidates.settings.unseen_unit * candidates.kind.radius), 0.0, cost_max);
 }
 
+// The centre line of a chain: these fragments with the chosen links between them.
+CentrePath centre_path(const Candidates& candidates, const std::vector<std::size_t>& fragments,
+                       const std::vector<std::size_t>& chosen) {
+  const LineTree line =
+      assembled_line(candidates.fragments, fragments, candidates.links, chosen, candidates.kind.radius);
+  const Paths paths(line);
+  CentrePath path;
+  for (const std::size_t node : paths.all().front()) path.push_back(line.nodes[node]);
+  return path;
+}
+
+// The cost of looking unlike the whole tubes of the scan.
+double cost_of_shape(const Candidates& candidates, const CentrePath& chain) {
+  constexpr double cost_max = 20;
+  const double strangeness = candidates.shapes.strangeness(chain) - candidates.settings.strangeness_max;
+  return std::clamp(candidates.settings.strangeness_weight * strangeness, 0.0, cost_max);
+}
+
 // The shape cost of a part of a tree: these fragments with the chosen links between them. If much of the tree
 // is missing, either that much is occluded or the part is no tree at all; the cheaper explanation counts.
-double shape_cost(const Candidates& candidates, const std::vector<std::size_t>& fragments,
-                  const std::vector<std::size_t>& chosen) {
+double cost_of_tree(const Candidates& candidates, const std::vector<std::size_t>& fragments,
+                    const std::vector<std::size_t>& chosen) {
   const TubeKind& kind = candidates.kind;
   const SegmentTree seen =
       segments_of(assembled_line(candidates.fragments, fragments, candidates.links, chosen, kind.radius));
@@ -82,8 +103,7 @@ public:
     if (first == second) return false;
     Part tube = joined(first, second, link);
     if (tube.length > candidates_->tube_length_max || tube.ends > candidates_->tube_ends_max) return false;
-    tube.cost = candidates_->kind.branches() ? cost_of_tree(tube, first, second, link)
-                                             : shape_cost(*candidates_, tube);
+    tube.cost = cost_of(tube, first, second, link);
     const auto& [from, to, weight] = candidates_->pairs[link];
     const double gain = weight + parts_[first].cost + parts_[second].cost - tube.cost;
     if (gain <= 0) return false;
@@ -142,7 +162,13 @@ private:
     return ends_taken(link.kind) == 1 ? from : from + fragments[link.to.fragment].ends[*link.to.end].hidden;
   }
 
-  double cost_of_tree(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
+  double cost_of(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
+    if (candidates_->kind.branches()) return cost_of_shape(tube, first, second, link);
+    const double of_length = cost_of_length(*candidates_, tube);
+    return candidates_->shapes.are_known() ? of_length + cost_of_shape(tube, first, second, link) : of_length;
+  }
+
+  double cost_of_shape(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
     const auto weighed = costs_->find(tube.links);
     if (weighed != costs_->end()) return weighed->second;
     std::vector<std::size_t> fragments;
@@ -153,7 +179,10 @@ private:
     std::vector<std::size_t> chosen = taken_;
     chosen.push_back(link);
     std::ranges::sort(chosen);
-    return (*costs_)[tube.links] = shape_cost(*candidates_, fragments, chosen);
+    return (*costs_)[tube.links] =
+               candidates_->kind.branches()
+                   ? cost_of_tree(*candidates_, fragments, chosen)
+                   : tanglebin::cost_of_shape(*candidates_, centre_path(*candidates_, fragments, chosen));
   }
 
   const Candidates* candidates_;
@@ -242,9 +271,13 @@ void add_graph(Candidates& candidates) {
   }
 }
 
-void add_parts(Candidates& candidates) {
+void add_numbers(Candidates& candidates) {
   std::mt19937_64 random;
   for (std::size_t i = 0; i < candidates.links.size(); ++i) candidates.numbers.push_back(random());
+}
+
+void add_parts(Candidates& candidates) {
+  candidates.alone.clear();
   for (std::size_t i = 0; i < candidates.fragments.size(); ++i) {
     const Fragment& fragment = candidates.fragments[i];
     const int ends = static_cast<int>(fragment.ends.size());
@@ -252,12 +285,45 @@ void add_parts(Candidates& candidates) {
     for (const FragmentEnd& end : fragment.ends) hidden += end.hidden;
     Part part{.length = fragment.length, .ends = ends, .links = 0, .hidden = hidden, .cost = 0};
     if (!candidates.kind.branches()) {
-      part.cost = shape_cost(candidates, part);
+      part.cost = cost_of_length(candidates, part);
+      if (candidates.shapes.are_known())
+        part.cost += cost_of_shape(candidates, centre_path(candidates, {i}, {}));
     } else if (ends <= candidates.tube_ends_max) {  // with surplus ends it stays a tube by itself, at no cost
-      part.cost = shape_cost(candidates, {i}, {});
+      part.cost = cost_of_tree(candidates, {i}, {});
     }
     candidates.alone.push_back(part);
   }
+}
+
+// What the whole chains among the chosen look like. Without a known length, none is known to be whole.
+TubeShapes shapes_of_whole_chains(const Candidates& candidates, const std::vector<std::size_t>& chosen) {
+  constexpr double nearly = 0.05;  // of the length
+  const TubeKind& kind = candidates.kind;
+  std::vector<CentrePath> whole;
+  if (kind.length_min <= 0) return {};
+  for (const auto& members : linked_fragments(candidates.fragments.size(), candidates.links, chosen)) {
+    CentrePath path = centre_path(candidates, members, chosen);
+    const double length = length_of(path);
+    if (length > (1 - nearly) * kind.length_min && length < (1 + nearly) * kind.length())
+      whole.push_back(std::move(path));
+  }
+  return {whole, kind.radius};
+}
+
+// The likeliest combination of links, ascending.
+std::vector<std::size_t> likeliest(const Candidates& candidates) {
+  std::vector<std::size_t> all(candidates.links.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const bool with_branches = candidates.kind.branches();
+  Selection::Costs costs;
+  const Selection none(candidates, costs);
+  Selection selection = none;
+  // Matching pairs ends, so it cannot represent a junction of three ends.
+  if (!with_branches) selection.take_possible(possible_matching(candidates, none));
+  selection.take_possible(all);
+  std::vector<std::size_t> chosen = exchanged(none, std::move(selection), all, with_branches).taken();
+  std::ranges::sort(chosen);
+  return chosen;
 }
 
 }  // namespace
@@ -266,19 +332,14 @@ std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, co
                                       const TubeKind& kind, const LinkSettings& settings) {
   Candidates candidates{fragments, links, kind, settings};
   add_graph(candidates);
+  add_numbers(candidates);
   add_parts(candidates);
-  std::vector<std::size_t> all(links.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-
-  Selection::Costs costs;
-  const Selection none(candidates, costs);
-  Selection selection = none;
-  // Matching pairs ends, so it cannot represent a junction of three ends.
-  if (!kind.branches()) selection.take_possible(possible_matching(candidates, none));
-  selection.take_possible(all);
-  std::vector<std::size_t> chosen = exchanged(none, std::move(selection), all, kind.branches()).taken();
-  std::ranges::sort(chosen);
-  return chosen;
+  std::vector<std::size_t> chosen = likeliest(candidates);
+  if (kind.branches()) return chosen;
+  candidates.shapes = shapes_of_whole_chains(candidates, chosen);
+  if (!candidates.shapes.are_known()) return chosen;
+  add_parts(candidates);
+  return likeliest(candidates);
 }
 
 std::vector<std::vector<std::size_t>> linked_fragments(std::size_t fragments, const std::vector<Link>& links,
