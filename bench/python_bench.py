@@ -3,10 +3,11 @@
 
 1. How long it takes to get a cloud's points as an array, and to copy them.
 2. How many scenes per second two processes make: `tanglebin generate`, which also writes them to disk, and the workers
-   of a PyTorch DataLoader (python/examples/train_loader.py), in turns.
+   of a PyTorch DataLoader (python/examples/train_loader.py), in turns. The processor time of a scene tells on a machine
+   that is busy with other work, too.
 """
 
-import json
+import resource
 import subprocess
 import sys
 import tempfile
@@ -16,6 +17,7 @@ from statistics import median
 
 import numpy as np
 import tanglebin
+import torch  # noqa: F401  (here, so that nobody's time has it)
 
 SOURCE = Path(__file__).parents[1]
 sys.path.insert(0, str(SOURCE / "python" / "examples"))
@@ -37,17 +39,27 @@ def time_arrays():
     print(f"a million points: {1e6 * view:.1f} us as an array, {1e6 * copy:.0f} us for a copy")
 
 
-def rate_of_program(program, recipe, cases):
+def processor_seconds():
+    usages = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(usage.ru_utime + usage.ru_stime for usage in usages)
+
+
+def costs(call):
+    """Seconds by the clock, and of the processors."""
+    start = processor_seconds()
+    return np.array([seconds_of(call), processor_seconds() - start])
+
+
+def costs_of_program(program, recipe):
     with tempfile.TemporaryDirectory() as folder:
         tanglebin.write_recipe(Path(folder) / "recipe.toml", recipe)
         command = [program, "generate", Path(folder) / "recipe.toml", "--out", Path(folder) / "dataset"]
-        out = subprocess.run([*command, "--jobs", str(WORKERS), "--json"], check=True, capture_output=True).stdout
-        return cases / json.loads(out)["seconds"]
+        return costs(lambda: subprocess.run([*command, "--jobs", str(WORKERS)], check=True, capture_output=True))
 
 
-def rate_of_loader(recipe, cases):
-    loader = train_loader.loader(train_loader.DrawnScenes(recipe, cases), WORKERS)
-    return cases / seconds_of(lambda: [len(batch) for batch in loader])
+def costs_of_loader(recipe, cases):
+    scenes = train_loader.DrawnScenes(recipe, cases)
+    return costs(lambda: [len(batch) for batch in train_loader.loader(scenes, WORKERS)])
 
 
 def ten_tubes(cases):
@@ -64,11 +76,12 @@ def ten_tubes(cases):
 
 def time_loader(program, cases):
     recipe = ten_tubes(cases)
-    rates = [(rate_of_program(program, recipe, cases), rate_of_loader(recipe, cases)) for _ in range(3)]
-    for by_program, by_loader in rates:
+    for _ in range(3):
+        by_program, by_loader = costs_of_program(program, recipe) / cases, costs_of_loader(recipe, cases) / cases
         print(
-            f"{cases} scenes of ten tubes: program {by_program:.1f} a second, loader {by_loader:.1f}, "
-            f"{by_loader / by_program:.0%}"
+            f"{cases} scenes of ten tubes: program {1 / by_program[0]:.1f} a second, loader {1 / by_loader[0]:.1f}, "
+            f"{by_program[0] / by_loader[0]:.0%}; of the processors {1e3 * by_program[1]:.0f} and "
+            f"{1e3 * by_loader[1]:.0f} ms a scene, {by_program[1] / by_loader[1]:.0%}"
         )
 
 

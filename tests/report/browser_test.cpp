@@ -12,6 +12,7 @@
 
 #include "tanglebin/report/page.hpp"
 #include "tests/report/synthetic_results.hpp"
+#include "tests/report/viewed_scene.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace tanglebin {
@@ -214,6 +215,96 @@ TEST_F(Browser, PlotsAgainstScannersAndDrawnNumbers) {
               testing::ContainsRegex("^paper, scanner right: mean 0.* of 10 runs$"));
   EXPECT_THAT(told["frictions"].get<std::vector<double>>(), ElementsAre(0.5, 0.625, 0.75, 0.875));
   EXPECT_EQ(told["rows"], "runs 1 to 10 of 10");
+}
+
+// ---- A scene in 3D, from its run
+// -------------------------------------------------------------------------------------------
+
+// Opens the scene of a row of each method, then turns and zooms it with the mouse and with two fingers.
+constexpr const char* try_scene = R"js(
+addEventListener("load", () => {
+  const canvas = document.querySelector(".scene-view canvas");
+  const { pixels, count } = paintedOn(canvas);
+  const rows = () => [...document.querySelectorAll(".runs tbody tr")];
+  const buttons = () => rows().map(row => row.querySelector("button")).filter(button => button);
+  const told = { rows: rows().length, names: buttons().map(button => button.getAttribute("aria-label")) };
+  const open = method => {
+    const row = rows().find(row => row.querySelector("button") && [...row.cells].some(cell => cell.textContent === method));
+    row.querySelector("button").click();
+    return {
+      errors: ["#0072b2", "#d55e00", "#e8b400"].map(count),
+      caption: document.querySelector(".scene-tubes caption").textContent,
+      isFocused: document.activeElement === canvas,
+      top: Math.abs(document.querySelector(".scene-view").getBoundingClientRect().top),
+    };
+  };
+  told.paper = open("paper");
+  told.axis = open("axis");
+  const picture = () => pixels().reduce((sum, value, i) => (31 * sum + value * (i % 8191)) % 1000003, 7);
+  const { left, top, width, height } = canvas.getBoundingClientRect();
+  const at = (x, y) => ({ clientX: left + x * width, clientY: top + y * height, bubbles: true, cancelable: true });
+  const touches = (...places) => {
+    const list = places.map(([x, y], identifier) => {
+      const { clientX, clientY } = at(x, y);
+      return new Touch({ identifier, target: canvas, clientX, clientY, pageX: clientX + scrollX, pageY: clientY + scrollY });
+    });
+    return { touches: list, targetTouches: list, changedTouches: list, bubbles: true, cancelable: true };
+  };
+  const pinch = () => {
+    canvas.dispatchEvent(new TouchEvent("touchstart", touches([0.4, 0.5], [0.6, 0.5])));
+    canvas.dispatchEvent(new TouchEvent("touchmove", touches([0.2, 0.5], [0.8, 0.5])));
+    canvas.dispatchEvent(new TouchEvent("touchend", touches()));
+  };
+  const drag = () => {
+    canvas.dispatchEvent(new MouseEvent("mousedown", at(0.4, 0.5)));
+    canvas.dispatchEvent(new MouseEvent("mousemove", at(0.6, 0.5)));
+    canvas.dispatchEvent(new MouseEvent("mouseup", at(0.6, 0.5)));
+  };
+  const finger = () => {
+    canvas.dispatchEvent(new TouchEvent("touchstart", touches([0.4, 0.5])));
+    canvas.dispatchEvent(new TouchEvent("touchmove", touches([0.4, 0.7])));
+    canvas.dispatchEvent(new TouchEvent("touchend", touches()));
+  };
+  const wheel = () => canvas.dispatchEvent(new WheelEvent("wheel", { ...at(0.5, 0.5), deltaY: 300 }));
+  told.pictures = [() => {}, drag, wheel, finger, pinch].map(act => (act(), picture()));
+  parent.postMessage(JSON.stringify(told), "*");
+});
+)js";
+
+// Results of which one scene is there in 3D: the paper's method has half of it wrong, the other none.
+std::string page_with_a_scene() {
+  const test::TemporaryDirectory directory;
+  test::write_synthetic_results(
+      directory.path(),
+      {.sets = {"A"}, .tubes = {2}, .cases = 3, .methods = {"paper", "axis"}, .ratios = {0.3}});
+  ViewedScene scene = test::two_tubes();
+  scene.name = "A2/1, ratio 0.3 (lowest of paper)";
+  scene.found.front().name = "paper";
+  scene.found.push_back({"axis", scene.truth->labels, scene.truth->tubes});
+  test::write_bytes(directory / "scenes.jsonl", scene_json(scene) + "\n");
+  return report_page(read_results_directory(directory.path()));
+}
+
+TEST_F(Browser, OpensASceneFromItsRunWithTheLabelsOfItsMethod) {
+  for (const int width : {1280, 390}) {
+    const json told =
+        test::told_by_page(page_with_a_scene(), std::string(test::painted_on) + try_scene, width);
+    ASSERT_TRUE(told.is_object());
+    EXPECT_EQ(told["rows"], 6);
+    EXPECT_THAT(told["names"].get<std::vector<std::string>>(),
+                ElementsAre("Show A2/1 in 3D", "Show A2/1 in 3D"));
+    EXPECT_THAT(told["paper"]["errors"].get<std::vector<int>>(), ElementsAre(Gt(1000), Gt(500), Gt(500)));
+    EXPECT_THAT(told["axis"]["errors"].get<std::vector<int>>(), ElementsAre(Gt(2000), 0, 0));
+    EXPECT_THAT(told["paper"]["caption"].get<std::string>(),
+                StartsWith("What each tube lost with paper: micro-recall 0.5"));
+    EXPECT_THAT(told["axis"]["caption"].get<std::string>(),
+                StartsWith("What each tube lost with axis: micro-recall 1.0"));
+    EXPECT_TRUE(told["axis"]["isFocused"]);
+    EXPECT_LT(told["axis"]["top"], 2) << "the scene is scrolled to";
+    std::vector<int> pictures = told["pictures"].get<std::vector<int>>();
+    std::ranges::sort(pictures);
+    EXPECT_EQ(std::ranges::unique(pictures).begin(), pictures.end()) << "each act changes the picture";
+  }
 }
 
 // The measurements above would tell.

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "tests/report/viewed_scene.hpp"
 #include "tests/support/browser.hpp"
 #include "tests/support/complaint.hpp"
 
@@ -15,44 +16,14 @@ namespace tanglebin {
 namespace {
 
 using nlohmann::json;
+using test::strip_length;
+using test::strip_width;
+using test::two_tubes;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::Gt;
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr std::int32_t length = 300;  // points along each tube
-constexpr std::int32_t width = 40;    // and across
-
-Tube tube(int id, double y) {
-  return {.id = id,
-          .radius = 0.02,
-          .nodes = {{.id = 1, .position = {0, y, 0}}, {.id = 2, .position = {0.3, y, 0}}},
-          .edges = {{.from = 0, .to = 1, .order = 1}}};
-}
-
-/// Two straight tubes side by side, each as a strip of points, and a strip of the bin. A method calls tube 1
-/// "7", gives the left half of tube 2 to it too, and leaves out the right half of tube 2.
-ViewedScene two_tubes() {
-  ViewedScene scene{.name = "two tubes",
-                    .cloud = {},
-                    .truth = Labelling{.name = "truth", .labels = {}, .tubes = {tube(1, 0), tube(2, 0.1)}},
-                    .found = {{.name = "method", .labels = {}, .tubes = {tube(7, 0)}}},
-                    .support = {.shape = Support::Shape::nothing}};
-  for (const std::int32_t label : {1, 2, 0}) {
-    for (int i = 0; i < length; ++i) {
-      for (int j = 0; j < width; ++j) {
-        const double y = (label + 2) % 3 * 0.1 + 0.001 * (j - width / 2);
-        scene.cloud.points.emplace_back(0.001F * static_cast<float>(i), static_cast<float>(y), 0.02F);
-        scene.truth->labels.push_back(label);
-        const bool is_left = i < length / 2;
-        scene.found.front().labels.push_back(label == 1 ? 7 : label == 2 ? (is_left ? 7 : -1) : 0);
-      }
-    }
-  }
-  scene.cloud.width = scene.cloud.points.size();
-  return scene;
-}
 
 template <typename Value>
 std::vector<Value> decoded(const json& base64) {
@@ -92,14 +63,14 @@ TEST(SceneView, FoundLabelsAreShownAsThoseOfTheTrueTubes) {
   const auto labels = decoded<std::int16_t>(found.at("labels"));
   ASSERT_EQ(labels.size(), scene.cloud.points.size());
   EXPECT_EQ(std::ranges::count(labels, 7), 0);
-  EXPECT_EQ(std::ranges::count(labels, 1), length * width * 3 / 2);
-  EXPECT_EQ(std::ranges::count(labels, -1), length * width / 2);
+  EXPECT_EQ(std::ranges::count(labels, 1), strip_length * strip_width * 3 / 2);
+  EXPECT_EQ(std::ranges::count(labels, -1), strip_length * strip_width / 2);
   EXPECT_EQ(found.at("tubes")[0].at("label"), 1);
   const json& score = found.at("score");
   EXPECT_EQ(score.at("micro_recall"), 0.5);
-  EXPECT_EQ(score.at("tubes")[0].at("correct"), length * width);
+  EXPECT_EQ(score.at("tubes")[0].at("correct"), strip_length * strip_width);
   EXPECT_EQ(score.at("tubes")[1].at("correct"), 0);
-  EXPECT_EQ(score.at("tubes")[1].at("unlabelled"), length * width / 2);
+  EXPECT_EQ(score.at("tubes")[1].at("unlabelled"), strip_length * strip_width / 2);
 }
 
 TEST(SceneView, OfManyPointsARandomPartIsShownAlwaysTheSame) {
@@ -140,7 +111,7 @@ TEST(SceneView, NamesAreText) {
 // ---- In a browser
 // -------------------------------------------------------------------------------------------
 
-// Works the page as a reader does. Counts pixels by their hue, because the shading makes them darker.
+// Works the page as a reader does.
 constexpr const char* look_around = R"js(
 // The page draws a scene once the reader sees it.
 addEventListener("load", () => setTimeout(() => {
@@ -151,24 +122,7 @@ addEventListener("load", () => setTimeout(() => {
     control[property] = value;
     control.dispatchEvent(new Event("change"));
   };
-  const pixels = () => {
-    const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
-    const context = copy.getContext("2d");
-    context.drawImage(canvas, 0, 0);
-    return context.getImageData(0, 0, copy.width, copy.height).data;
-  };
-  const count = color => {
-    const data = pixels();
-    const wanted = [1, 3, 5].map(at => parseInt(color.slice(at, at + 2), 16));
-    const most = Math.max(...wanted);
-    let result = 0;
-    for (let i = 0; i < data.length; i += 4) {
-      const bright = Math.max(data[i], data[i + 1], data[i + 2]);
-      if (data[i + 3] < 250 || bright < 60) continue;
-      if (wanted.every((value, k) => Math.abs(value / most - data[i + k] / bright) < 0.06)) ++result;
-    }
-    return result;
-  };
+  const { pixels, count } = paintedOn(canvas);
   const press = key => {
     canvas.dispatchEvent(new KeyboardEvent("keydown", { key, cancelable: true }));
     return pixels().reduce((sum, value, i) => (31 * sum + value * (i % 8191)) % 1000003, 7);
@@ -203,7 +157,7 @@ addEventListener("load", () => setTimeout(() => {
 )js";
 
 json seen(const ViewedScene& scene, int window_width) {
-  std::string script = look_around;
+  std::string script = std::string(test::painted_on) + look_around;
   const std::string name = "SCENE";
   script.replace(script.find(name), name.size(), json(scene_json(scene)).dump());
   return test::told_by_page(view_page(scene), script, window_width);
