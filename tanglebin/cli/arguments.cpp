@@ -63,6 +63,17 @@ void write_output(const std::string& file, std::string_view bytes) {
   std::fwrite(bytes.data(), 1, bytes.size(), stdout);  // main() checks that it was written
 }
 
+void write_outputs(const std::vector<std::pair<std::string, std::string>>& outputs) {
+  std::vector<std::pair<std::filesystem::path, std::string>> files;
+  for (const auto& [file, bytes] : outputs) {
+    if (file != standard_stream) files.emplace_back(file, bytes);
+  }
+  write_files(files);
+  for (const auto& [file, bytes] : outputs) {
+    if (file == standard_stream) write_output(file, bytes);
+  }
+}
+
 void expect_dataset(const std::string& directory) {
   const std::filesystem::path path(directory);
   if (std::filesystem::exists(path / recipe_name)) return;

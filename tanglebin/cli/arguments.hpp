@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tanglebin/io/safe_file.hpp"
@@ -26,6 +27,9 @@ auto read_input(const std::string& file, const Read& read) {
 
 /// Writes the bytes to the file, completely or not at all, or to standard output if `file` is "-".
 void write_output(const std::string& file, std::string_view bytes);
+
+/// Writes several outputs, each a file's name and its bytes. If one cannot be written, no file is.
+void write_outputs(const std::vector<std::pair<std::string, std::string>>& outputs);
 
 /// Throws InputError unless the directory has a dataset, that is a recipe.toml.
 void expect_dataset(const std::string& directory);

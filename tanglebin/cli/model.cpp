@@ -138,8 +138,9 @@ void model_cloud(const ModelArguments& arguments) {
   validate(resolved.known, settings);
   const Model model =
       with_file(arguments.cloud, [&] { return model_tubes(resolved.cloud, resolved.known, settings); });
-  write_output(arguments.out, cloud_bytes(measured.cloud, model, arguments.out));
-  write(arguments.files, model);
+  std::vector<std::pair<std::string, std::string>> files = contents(arguments.files, model);
+  files.emplace_back(arguments.out, cloud_bytes(measured.cloud, model, arguments.out));
+  write_outputs(files);
   if (arguments.debug_directory) write_pictures(resolved, settings, arguments);
   if (!take_standard_output(outputs(arguments))) print_summary(arguments, resolved, model);
   print_findings(model, arguments.cloud);

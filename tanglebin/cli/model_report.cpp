@@ -91,9 +91,11 @@ std::vector<Output> outputs(const ModelFiles& files) {
   return all;
 }
 
-void write(const ModelFiles& files, const Model& model) {
-  if (files.tubes) write_output(*files.tubes, tubes_bytes(model, *files.tubes));
-  if (files.mesh) write_output(*files.mesh, mesh_bytes(model, *files.mesh));
+std::vector<std::pair<std::string, std::string>> contents(const ModelFiles& files, const Model& model) {
+  std::vector<std::pair<std::string, std::string>> all;
+  if (files.tubes) all.emplace_back(*files.tubes, tubes_bytes(model, *files.tubes));
+  if (files.mesh) all.emplace_back(*files.mesh, mesh_bytes(model, *files.mesh));
+  return all;
 }
 
 void print_tubes(const Model& model) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tanglebin/cli/outputs.hpp"
@@ -27,8 +28,8 @@ void add_options(CLI::App& command, ModelFiles& files);
 /// The files that are asked for.
 std::vector<Output> outputs(const ModelFiles& files);
 
-/// Writes the files that are asked for. Throws as write_output() does.
-void write(const ModelFiles& files, const Model& model);
+/// Their names and contents.
+std::vector<std::pair<std::string, std::string>> contents(const ModelFiles& files, const Model& model);
 
 /// Prints a line for each tube, and where the points are.
 void print_tubes(const Model& model);

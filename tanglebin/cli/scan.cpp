@@ -123,7 +123,7 @@ std::vector<Output> outputs(const ScanArguments& arguments) {
   return files;
 }
 
-// The files with their contents, all before the first is written: one that cannot be made leaves none behind.
+// The files with their contents.
 std::vector<std::pair<std::string, std::string>> contents(const ScanArguments& arguments,
                                                           const std::vector<Tube>& tubes,
                                                           const Support& support, const Scan& view) {
@@ -184,7 +184,7 @@ void scan_configuration(const ScanArguments& arguments) {
       read_input(arguments.configuration, [](auto&&... from) { return read_configuration(from...); });
   const Scan view = scan(tubes, support, scanner.camera, scanner.sensor, seed);
   if (!tubes.empty() && !shows_a_tube(view)) warn_of_no_tube(scanner.camera, tubes);
-  for (const auto& [file, bytes] : contents(arguments, tubes, support, view)) write_output(file, bytes);
+  write_outputs(contents(arguments, tubes, support, view));
   if (!take_standard_output(outputs(arguments))) print_summary(arguments, view, tubes);
 }
 

@@ -50,11 +50,6 @@ Interval below_zero(double a, double b, double c) {
   return {(-b - root) / a, (-b + root) / a};
 }
 
-Interval inside_sphere(const Line& line, const Eigen::Vector3d& centre, double radius) {
-  const Eigen::Vector3d offset = line.origin - centre;
-  return below_zero(1, offset.dot(line.direction), offset.squaredNorm() - radius * radius);
-}
-
 // The part of a line between the planes through a and b perpendicular to a–b.
 Interval inside_slab(double slope, double start, double length) {
   if (slope == 0) return start >= 0 && start <= length ? Interval{-infinity, infinity} : Interval{};
@@ -63,27 +58,51 @@ Interval inside_slab(double slope, double start, double length) {
   return {std::min(at_a, at_b), std::max(at_a, at_b)};
 }
 
-Interval inside_cylinder(const Line& line, const Capsule& capsule) {
-  const double length = (capsule.b - capsule.a).norm();
-  if (length == 0) return {};
-  const Eigen::Vector3d axis = (capsule.b - capsule.a) / length;
-  const Eigen::Vector3d offset = line.origin - capsule.a;
-  const double slope = line.direction.dot(axis);
-  const double start = offset.dot(axis);
-  const Eigen::Vector3d across_direction = line.direction - slope * axis;
-  const Eigen::Vector3d across_offset = offset - start * axis;
-  return intersection(inside_slab(slope, start, length),
-                      below_zero(across_direction.squaredNorm(), across_offset.dot(across_direction),
-                                 across_offset.squaredNorm() - capsule.radius * capsule.radius));
-}
+// A capsule, and what it needs of lines that all have one direction.
+class CapsuleAlong {
+public:
+  CapsuleAlong(const Capsule& capsule, const Eigen::Vector3d& direction)
+      : capsule_(capsule), length_((capsule.b - capsule.a).norm()), direction_(direction) {
+    if (length_ == 0) return;
+    axis_ = (capsule.b - capsule.a) / length_;
+    slope_ = direction.dot(axis_);
+    across_ = direction - slope_ * axis_;
+    steepness_ = across_.squaredNorm();
+  }
 
-// A capsule is convex, so its intersection with a line is a single interval, whichever parts the line passes.
-Interval inside_capsule(const Line& line, const Capsule& capsule) {
-  Interval inside = inside_cylinder(line, capsule);
-  if (!capsule.flat_at_a) inside = hull(inside, inside_sphere(line, capsule.a, capsule.radius));
-  if (!capsule.flat_at_b) inside = hull(inside, inside_sphere(line, capsule.b, capsule.radius));
-  return inside;
-}
+  // The part of the line inside. A capsule is convex, so it is a single interval, whichever parts of the
+  // capsule the line passes.
+  Interval of_line(const Eigen::Vector3d& origin) const {
+    Interval inside = of_cylinder(origin);
+    if (!capsule_.flat_at_a) inside = hull(inside, of_sphere(origin, capsule_.a));
+    if (!capsule_.flat_at_b) inside = hull(inside, of_sphere(origin, capsule_.b));
+    return inside;
+  }
+
+private:
+  Interval of_cylinder(const Eigen::Vector3d& origin) const {
+    if (length_ == 0) return {};
+    const Eigen::Vector3d offset = origin - capsule_.a;
+    const double start = offset.dot(axis_);
+    const Eigen::Vector3d across_offset = offset - start * axis_;
+    return intersection(inside_slab(slope_, start, length_),
+                        below_zero(steepness_, across_offset.dot(across_),
+                                   across_offset.squaredNorm() - capsule_.radius * capsule_.radius));
+  }
+
+  Interval of_sphere(const Eigen::Vector3d& origin, const Eigen::Vector3d& centre) const {
+    const Eigen::Vector3d offset = origin - centre;
+    return below_zero(1, offset.dot(direction_), offset.squaredNorm() - capsule_.radius * capsule_.radius);
+  }
+
+  Capsule capsule_;
+  double length_;
+  Eigen::Vector3d direction_;
+  Eigen::Vector3d axis_ = Eigen::Vector3d::Zero();
+  double slope_ = 0;                                  // of the direction along the axis
+  Eigen::Vector3d across_ = Eigen::Vector3d::Zero();  // the rest of the direction
+  double steepness_ = 0;                              // squared length of that
+};
 
 // Volume, with its first and second moments.
 struct Moments {
@@ -103,11 +122,11 @@ struct Moments {
 };
 
 // Adds the parts of a rod that are in none of the `filled` capsules.
-void add_free_parts(const Line& line, const Interval& rod, double area, const std::vector<Capsule>& filled,
-                    std::vector<Interval>& taken, Moments& moments) {
+void add_free_parts(const Line& line, const Interval& rod, double area,
+                    const std::vector<CapsuleAlong>& filled, std::vector<Interval>& taken, Moments& moments) {
   taken.clear();
-  for (const Capsule& capsule : filled) {
-    const Interval inside = intersection(rod, inside_capsule(line, capsule));
+  for (const CapsuleAlong& capsule : filled) {
+    const Interval inside = intersection(rod, capsule.of_line(line.origin));
     if (inside.low < inside.high) taken.push_back(inside);
   }
   std::ranges::sort(taken, {}, &Interval::low);
@@ -136,6 +155,8 @@ const std::array<Eigen::Vector3d, azimuths>& unit_circle() {
 void add_capsule(const EdgeFrame& frame, const Capsule& capsule, const Eigen::Vector3d& origin,
                  const std::vector<Capsule>& filled, Moments& moments) {
   const Eigen::Matrix3d axes = frame.rotation.toRotationMatrix();
+  std::vector<CapsuleAlong> filled_along;
+  for (const Capsule& other : filled) filled_along.emplace_back(other, axes.col(2));
   std::vector<Interval> taken;
   const auto add_ring = [&](double c, double weight) {
     const double rho = capsule.radius * std::sqrt(1 - c * c);
@@ -145,7 +166,7 @@ void add_capsule(const EdgeFrame& frame, const Capsule& capsule, const Eigen::Ve
     const double area = weight * capsule.radius * capsule.radius * c * 2 * std::numbers::pi / azimuths;
     for (const Eigen::Vector3d& outward : unit_circle()) {
       const Eigen::Vector3d across = axes * (rho * outward);
-      add_free_parts({frame.centre - origin + across, axes.col(2)}, rod, area, filled, taken, moments);
+      add_free_parts({frame.centre - origin + across, axes.col(2)}, rod, area, filled_along, taken, moments);
     }
   };
   for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {  // the rule is on [−1, 1], but c is in [0, 1]

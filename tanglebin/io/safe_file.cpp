@@ -95,9 +95,15 @@ public:
 
   std::error_code append(std::string_view bytes) const { return file_->write_all(bytes); }
 
+  std::error_code finish() {
+    if (file_ == nullptr) return {};
+    const std::unique_ptr<Descriptor> file = std::move(file_);
+    if (const std::error_code error = file->sync()) return error;
+    return file->close();
+  }
+
   std::error_code rename_to(const fs::path& target) {
-    if (const std::error_code error = file_->sync()) return error;
-    if (const std::error_code error = file_->close()) return error;
+    if (const std::error_code error = finish()) return error;
     if (::rename(path_.c_str(), target.c_str()) != 0) return last_error();
     exists_ = false;
     return {};
@@ -145,13 +151,31 @@ std::error_code write_beside_and_rename(const fs::path& target, std::string_view
   return sync_names_in(directory_of(target));
 }
 
-std::error_code write_whole(const fs::path& file, std::string_view bytes) {
-  if (is_device_or_pipe(file)) return write_into(file, bytes);
+// Makes the name of a symbolic link that of the file that it leads to.
+std::error_code follow_link(fs::path& file) {
   std::error_code error;
-  const bool is_link = fs::is_symlink(fs::symlink_status(file, error));
-  const fs::path target = is_link ? fs::canonical(file, error) : file;
-  if (is_link && error) return error;
-  return write_beside_and_rename(target, bytes);
+  if (!fs::is_symlink(fs::symlink_status(file, error))) return {};
+  fs::path target = fs::canonical(file, error);
+  if (!error) file = std::move(target);
+  return error;
+}
+
+std::error_code write_whole(fs::path file, std::string_view bytes) {
+  if (is_device_or_pipe(file)) return write_into(file, bytes);
+  if (const std::error_code error = follow_link(file)) return error;
+  return write_beside_and_rename(file, bytes);
+}
+
+// With its bytes on disk, and without its name.
+std::unique_ptr<StagedFile> staged_beside(fs::path file, std::string_view bytes) {
+  if (const std::error_code error = follow_link(file)) throw_refusal(file, "cannot write", error);
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored))
+    throw_refusal(file, "cannot write", std::make_error_code(std::errc::is_a_directory));
+  auto staged = std::make_unique<StagedFile>(file, directory_of(file));
+  staged->append(bytes);
+  staged->finish();
+  return staged;
 }
 
 /// The existing part of the path that is not a directory; empty if there is none.
@@ -181,6 +205,20 @@ void throw_refusal(const std::filesystem::path& file, const std::string& what,
 
 void write_file(const std::filesystem::path& file, std::string_view bytes) {
   if (const std::error_code error = write_whole(file, bytes)) throw_refusal(file, "cannot write", error);
+}
+
+void write_files(const std::vector<std::pair<std::filesystem::path, std::string>>& files) {
+  std::vector<std::unique_ptr<StagedFile>> staged;
+  for (const auto& [file, bytes] : files) {
+    if (!is_device_or_pipe(file)) staged.push_back(staged_beside(file, bytes));
+  }
+  for (const auto& [file, bytes] : files) {
+    if (is_device_or_pipe(file)) write_file(file, bytes);
+  }
+  for (const auto& file : staged) file->commit();
+  for (const auto& [file, bytes] : files) {
+    if (!is_device_or_pipe(file)) sync_directory(directory_of(file));
+  }
 }
 
 void make_directories(const std::filesystem::path& directory) {
@@ -242,6 +280,10 @@ StagedFile::~StagedFile() = default;
 
 void StagedFile::append(std::string_view bytes) {
   implementation_->expect(implementation_->temporary.append(bytes));
+}
+
+void StagedFile::finish() {
+  implementation_->expect(implementation_->temporary.finish());
 }
 
 void StagedFile::commit() {

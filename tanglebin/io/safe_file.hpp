@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace tanglebin {
 
@@ -22,6 +24,10 @@ std::error_code last_error();
 /// device or pipe is written directly. On failure, leaves nothing behind and throws as throw_refusal() does,
 /// with the file and the reason ("No space left on device", "Permission denied", "Is a directory", …).
 void write_file(const std::filesystem::path& file, std::string_view bytes);
+
+/// Writes several files, each a name and its bytes, as write_file() does. None gets its name before the bytes
+/// of all are on disk, so if one cannot be written, all stay as they were.
+void write_files(const std::vector<std::pair<std::filesystem::path, std::string>>& files);
 
 /// Creates a directory and its missing parents, and waits until their names are on disk. Throws InputError
 /// naming a file that is in the way, and otherwise as throw_refusal() does.
@@ -49,6 +55,9 @@ public:
   StagedFile& operator=(const StagedFile&) = delete;
 
   void append(std::string_view bytes);
+
+  /// Waits until the bytes are on disk. Nothing can be appended afterwards.
+  void finish();
   void commit();
 
 private:

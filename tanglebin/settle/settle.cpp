@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/geometry/mass_properties.hpp"
 #include "tanglebin/settle/overlap.hpp"
 #include "tanglebin/settle/world.hpp"
 
@@ -20,16 +19,6 @@ double longest_fall(const std::vector<Tube>& tubes, double gravity) {
   return std::sqrt(2 * top / gravity);
 }
 
-double largest_motion(const std::vector<Tube>& before, const std::vector<Tube>& after) {
-  double largest = 0;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    for (std::size_t j = 0; j < before[i].nodes.size(); ++j) {
-      largest = std::max(largest, (after[i].nodes[j].position - before[i].nodes[j].position).norm());
-    }
-  }
-  return largest;
-}
-
 // True if every centre of mass is between the outer sides of the walls. A tube beyond them does not come
 // back.
 bool are_over_the_bin(const std::vector<Eigen::Vector3d>& centres, const Bin& bin) {
@@ -41,8 +30,9 @@ bool are_over_the_bin(const std::vector<Eigen::Vector3d>& centres, const Bin& bi
 
 /// The outcome of a test of rest.
 struct RestTest {
-  std::string fault{};                ///< why the tubes are not clear and at rest; empty if they are
-  std::vector<TubeMotion> motions{};  ///< when a node had moved too far; empty if none did
+  std::string fault{};                     ///< why the tubes are not clear and at rest; empty if they are
+  std::vector<TubeMotion> motions{};       ///< when a node had moved too far; empty if none did
+  std::vector<Eigen::Vector3d> centres{};  ///< of mass, where the tubes were put down; empty if they overlap
 };
 
 // Puts the tubes down without speed, releases them and watches them.
@@ -54,20 +44,21 @@ RestTest test_rest(const std::vector<Tube>& tubes, const Bin& bin, const SettleS
     return {.fault = fmt::format("a tube overlaps the bin by {:.2f} mm", 1e3 * overlap)};
   }
   World world(tubes, bin, settings, 0);
+  const std::vector<Eigen::Vector3d> centres = world.centres_of_mass();
   while (world.time() < settings.proof_time) {
     world.step({.iterations = settings.iterations_max, .damping = 0});
-    const double motion = largest_motion(tubes, world.tubes());
+    const double motion = world.largest_motion(tubes);
     if (motion > settings.proof_motion) {
       return {.fault = fmt::format("no rest: a node moved {:.2f} mm in {:.3g} s", 1e3 * motion, world.time()),
-              .motions = world.motions()};
+              .motions = world.motions(),
+              .centres = centres};
     }
   }
-  return {};
+  return {.centres = centres};
 }
 
-std::string fault_of_place(const std::vector<Tube>& tubes, const Bin& bin) {
-  const bool are_inside = std::ranges::all_of(tubes, [&](const Tube& tube) {
-    const Eigen::Vector3d centre = mass_properties(tube).centre;
+std::string fault_of_place(const std::vector<Eigen::Vector3d>& centres, const Bin& bin) {
+  const bool are_inside = std::ranges::all_of(centres, [&](const Eigen::Vector3d& centre) {
     return std::abs(centre.x()) < bin.length / 2 && std::abs(centre.y()) < bin.width / 2 && centre.z() > 0;
   });
   return are_inside ? "" : "a centre of mass is outside the bin";
@@ -106,7 +97,7 @@ Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSetti
     const RestTest test = test_rest(heap, bin, settings);
     fault = test.fault;
     if (fault.empty()) {
-      fault = fault_of_place(heap, bin);
+      fault = fault_of_place(test.centres, bin);
       break;
     }
     // A tube that rolls to its lowest place, or swings, does so too slowly in the damped world.
@@ -119,8 +110,8 @@ Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSetti
 }
 
 std::string fault_of_heap(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings) {
-  const std::string fault = test_rest(tubes, bin, settings).fault;
-  return fault.empty() ? fault_of_place(tubes, bin) : fault;
+  const RestTest test = test_rest(tubes, bin, settings);
+  return test.fault.empty() ? fault_of_place(test.centres, bin) : test.fault;
 }
 
 void validate(const SettleSettings& settings) {

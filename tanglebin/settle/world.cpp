@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
@@ -71,6 +72,42 @@ void add_bin(dSpaceID space, const Bin& bin) {
   }
 }
 
+// A geom with its bounding box: the lowest and highest x, y and z.
+struct Boxed {
+  dGeomID geom;
+  std::array<dReal, 6> box;
+};
+
+Boxed boxed(dGeomID geom) {
+  Boxed result{.geom = geom, .box = {}};
+  dGeomGetAABB(geom, result.box.data());
+  return result;
+}
+
+// As ODE compares them.
+bool intersect(const Boxed& a, const Boxed& b) {
+  return !(a.box[0] > b.box[1] || b.box[0] > a.box[1] || a.box[2] > b.box[3] || b.box[2] > a.box[3] ||
+           a.box[4] > b.box[5] || b.box[4] > a.box[5]);
+}
+
+// The capsules of a tube in a step, in the order in which ODE has them, and the space of all.
+struct Parts {
+  Boxed all;
+  std::vector<Boxed> capsules;
+};
+
+void look_up(dSpaceID space, Parts& parts) {
+  parts.all = boxed(reinterpret_cast<dGeomID>(space));
+  for (int i = 0; i < dSpaceGetNumGeoms(space); ++i) parts.capsules.push_back(boxed(dSpaceGetGeom(space, i)));
+}
+
+void find_near(const std::vector<Boxed>& capsules, const Boxed& other, std::vector<Boxed>& near) {
+  near.clear();
+  for (const Boxed& capsule : capsules) {
+    if (intersect(capsule, other)) near.push_back(capsule);
+  }
+}
+
 struct Body {
   dBodyID id;
   MassProperties properties;
@@ -88,9 +125,15 @@ struct World::Implementation {
   std::vector<Body> bodies;
   unsigned long random;  // state of ODE's global random generator, restored for each step of this world
   int steps = 0;
+  std::vector<std::unique_ptr<Parts>> parts;  // of each tube; empty if not yet looked up in this step
+  std::vector<Boxed> near_of_first;           // what may touch of two tubes; members to keep their memory
+  std::vector<Boxed> near_of_second;
 
   void add_tube(const Tube& tube);
   void touch(dGeomID first, dGeomID second);
+  void touch_tubes(dSpaceID first, dSpaceID second);
+  void touch_geoms(dGeomID first, dGeomID second);
+  const Parts& parts_of(dSpaceID space);
 };
 
 void World::Implementation::add_tube(const Tube& tube) {
@@ -103,9 +146,10 @@ void World::Implementation::add_tube(const Tube& tube) {
   dBodySetAngularDampingThreshold(body.id, 0);
   dBodySetPosition(body.id, properties.centre.x(), properties.centre.y(), properties.centre.z());
 
-  const dSpaceID parts = dSimpleSpaceCreate(space);
-  dGeomSetCategoryBits(reinterpret_cast<dGeomID>(parts), tube_bit);
-  dGeomSetCollideBits(reinterpret_cast<dGeomID>(parts), tube_bit | wall_bit);
+  const dSpaceID capsule_space = dSimpleSpaceCreate(space);
+  dGeomSetCategoryBits(reinterpret_cast<dGeomID>(capsule_space), tube_bit);
+  dGeomSetCollideBits(reinterpret_cast<dGeomID>(capsule_space), tube_bit | wall_bit);
+  dGeomSetData(reinterpret_cast<dGeomID>(capsule_space), parts.emplace_back(std::make_unique<Parts>()).get());
   const dSpaceID nodes = dSimpleSpaceCreate(space);
   dGeomSetCategoryBits(reinterpret_cast<dGeomID>(nodes), node_bit);
   dGeomSetCollideBits(reinterpret_cast<dGeomID>(nodes), floor_bit);
@@ -116,7 +160,7 @@ void World::Implementation::add_tube(const Tube& tube) {
     spheres[body.tube.edges[i].from] = shape.a;
     spheres[body.tube.edges[i].to] = shape.b;
     const auto [centre, rotation, length] = frame_between(shape.a, shape.b);
-    const dGeomID geom = dCreateCapsule(parts, tube.radius, length);
+    const dGeomID geom = dCreateCapsule(capsule_space, tube.radius, length);
     dGeomSetBody(geom, body.id);
     set_offset(geom, centre, rotation);
   }
@@ -128,12 +172,49 @@ void World::Implementation::add_tube(const Tube& tube) {
   bodies.push_back(std::move(body));
 }
 
-void World::Implementation::touch(dGeomID first, dGeomID second) {
-  if (dGeomIsSpace(first) != 0 || dGeomIsSpace(second) != 0) {
-    dSpaceCollide2(first, second, this,
-                   [](void* self, dGeomID a, dGeomID b) { static_cast<Implementation*>(self)->touch(a, b); });
-    return;
+const Parts& World::Implementation::parts_of(dSpaceID space) {
+  Parts& parts = *static_cast<Parts*>(dGeomGetData(reinterpret_cast<dGeomID>(space)));
+  if (parts.capsules.empty()) look_up(space, parts);
+  return parts;
+}
+
+// The same pairs in the same order as those of dSpaceCollide2, which tests each capsule of one tube against
+// each of the other. Most are not even near the other tube.
+void World::Implementation::touch_tubes(dSpaceID first, dSpaceID second) {
+  const Parts& a = parts_of(first);
+  const Parts& b = parts_of(second);
+  find_near(a.capsules, b.all, near_of_first);
+  if (near_of_first.empty()) return;
+  find_near(b.capsules, a.all, near_of_second);
+  const auto touch_if_near = [this](const Boxed& one, const Boxed& other) {
+    if (intersect(one, other)) touch_geoms(one.geom, other.geom);
+  };
+  if (a.capsules.size() < b.capsules.size()) {
+    for (const Boxed& one : near_of_first) {
+      for (const Boxed& other : near_of_second) touch_if_near(one, other);
+    }
+  } else {
+    for (const Boxed& other : near_of_second) {
+      for (const Boxed& one : near_of_first) touch_if_near(one, other);
+    }
   }
+}
+
+void World::Implementation::touch(dGeomID first, dGeomID second) {
+  const bool first_is_space = dGeomIsSpace(first) != 0;
+  const bool second_is_space = dGeomIsSpace(second) != 0;
+  if (first_is_space && second_is_space) {
+    touch_tubes(reinterpret_cast<dSpaceID>(first), reinterpret_cast<dSpaceID>(second));
+  } else if (first_is_space || second_is_space) {
+    dSpaceCollide2(first, second, this, [](void* self, dGeomID a, dGeomID b) {
+      static_cast<Implementation*>(self)->touch_geoms(a, b);
+    });
+  } else {
+    touch_geoms(first, second);
+  }
+}
+
+void World::Implementation::touch_geoms(dGeomID first, dGeomID second) {
   const dBodyID first_body = dGeomGetBody(first);
   const dBodyID second_body = dGeomGetBody(second);
   const bool with_bin = first_body == nullptr || second_body == nullptr;
@@ -182,6 +263,7 @@ void World::step(const StepSettings& how) {
   Implementation& self = *implementation_;
   dWorldSetQuickStepNumIterations(self.world, how.iterations);
   for (const Body& body : self.bodies) dBodySetDamping(body.id, how.damping, how.damping);
+  for (const auto& parts : self.parts) parts->capsules.clear();
   dSpaceCollide(self.space, &self,
                 [](void* data, dGeomID a, dGeomID b) { static_cast<Implementation*>(data)->touch(a, b); });
   dRandSetSeed(self.random);
@@ -206,6 +288,19 @@ double World::fastest_node() const {
     }
   }
   return fastest;
+}
+
+double World::largest_motion(const std::vector<Tube>& start) const {
+  double largest = 0;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const Body& body = implementation_->bodies[i];
+    const Eigen::Isometry3d to_world = pose(body.id);
+    for (std::size_t j = 0; j < start[i].nodes.size(); ++j) {
+      const Eigen::Vector3d position = to_world * body.tube.nodes[j].position;
+      largest = std::max(largest, (position - start[i].nodes[j].position).norm());
+    }
+  }
+  return largest;
 }
 
 std::vector<Eigen::Vector3d> World::centres_of_mass() const {

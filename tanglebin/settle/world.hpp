@@ -46,6 +46,9 @@ public:
   /// Speed of the fastest node of all tubes, m/s.
   double fastest_node() const;
 
+  /// How far the node is that is farthest from where it is in `start`, the same tubes elsewhere, m.
+  double largest_motion(const std::vector<Tube>& start) const;
+
   /// The tubes' centres of mass, m.
   std::vector<Eigen::Vector3d> centres_of_mass() const;
 

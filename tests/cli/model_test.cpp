@@ -200,6 +200,16 @@ TEST_F(ModelCommand, TakesTubesOfSeveralRadiiAndLengths) {
   EXPECT_GT(score(cloud.labels, read_cloud(directory_ / "labelled.ply").labels).micro_recall, 0.999);
 }
 
+TEST_F(ModelCommand, LeavesNothingBehindWhereAnOutputCannotBeWritten) {
+  for (const std::string& option :
+       {"--modelled-tubes " + path("none/tubes.json"), "--mesh " + path("none/m.ply")}) {
+    const ProgramResult result = model("scan.ply", option);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("cannot write: No such file or directory"));
+    EXPECT_FALSE(std::filesystem::exists(path("labelled.ply"))) << option;
+  }
+}
+
 TEST_F(ModelCommand, RefusesWhatItCannotModel) {
   const std::vector<std::pair<ProgramResult, std::string>> refusals = {
       {model("scan.ply", "--radius 8"), "radius: found 8 m, expected 0.0001 to 1 m; for 8 mm write 0.008"},

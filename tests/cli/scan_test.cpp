@@ -89,6 +89,17 @@ TEST_F(ScanCommand, LeavesNothingBehindWhereAnOutputCannotBeMade) {
   EXPECT_EQ(files_below(directory_.path()).size(), 1U) << "only the configuration";
 }
 
+TEST_F(ScanCommand, LeavesNothingBehindWhereAnOutputCannotBeWritten) {
+  for (const char* missing : {"--depth", "--labels", "--picture"}) {
+    const auto result =
+        run_program("scan " + configuration_.string() + " --out " + (directory_ / "cloud.ply").string() +
+                    " " + missing + " " + (directory_ / "none" / "image.png").string());
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("none/image.png: cannot write: No such file or directory"));
+    EXPECT_EQ(files_below(directory_.path()).size(), 1U) << missing << ": only the configuration";
+  }
+}
+
 TEST_F(ScanCommand, SeesLikeARealScannerWhereAsked) {
   const std::string command = "scan " + configuration_.string() + " --with-bin --out ";
   const std::string ideal = (directory_ / "ideal.ply").string();

@@ -167,6 +167,37 @@ TEST_F(SafeFile, AWrongPathIsBadInputAndAFullDeviceARefusalOfTheSystem) {
   EXPECT_THROW(write_file("/dev/full", "x"), SystemError);
 }
 
+TEST_F(SafeFile, SeveralAreWrittenOrNoneIs) {
+  write_file(directory_ / "1.ply", "old");
+  write_file(directory_ / "target", "old");
+  fs::create_symlink("target", directory_ / "link");
+  fs::create_directory(directory_ / "folder");
+  const std::string bytes(100000, 'x');
+  const std::vector<fs::path> refused = {directory_ / "missing" / "1.png", directory_ / "folder",
+                                         "/dev/full"};
+  for (const fs::path& file : refused) {
+    EXPECT_THAT(complaint([&] {
+                  write_files({{directory_ / "1.ply", "new"}, {file, "new"}});
+                }),
+                HasSubstr(file.string() + ": cannot write: "));
+  }
+  {
+    const FileSizeLimit limit(65536);
+    EXPECT_THAT(complaint([&] {
+                  write_files({{directory_ / "1.ply", "new"}, {directory_ / "2.ply", bytes}});
+                }),
+                HasSubstr("2.ply: cannot write: File too large"));
+  }
+  EXPECT_EQ(bytes_of(directory_ / "1.ply"), "old");
+  EXPECT_THAT(names_in(directory_), UnorderedElementsAre("1.ply", "target", "link", "folder"));
+
+  write_files({{directory_ / "1.ply", "new"}, {directory_ / "link", "new"}, {"/dev/null", "new"}});
+  EXPECT_EQ(bytes_of(directory_ / "1.ply"), "new");
+  EXPECT_EQ(bytes_of(directory_ / "target"), "new");
+  EXPECT_TRUE(fs::is_symlink(directory_ / "link"));
+  EXPECT_THAT(names_in(directory_), UnorderedElementsAre("1.ply", "target", "link", "folder"));
+}
+
 TEST_F(SafeFile, ManyWritersOfOneFileEachWriteAWholeOne) {
   const fs::path file = directory_ / "1.ply";
   std::vector<std::thread> writers;
