@@ -128,6 +128,7 @@ KnownScene known_of(const Cell& cell, Told told) {
   if (told == Told::short_length) length *= 0.9;
   if (told == Told::long_length) length *= 1.1;
   known.kinds = {{.radius = cell.radius, .segments = {{1, 2, length}}}};
+  if (told != Told::no_length) known.kinds[0].length_min = length;
   return known;
 }
 

@@ -303,7 +303,7 @@ TubeShapes shapes_of_whole_chains(const Candidates& candidates, const std::vecto
   if (kind.length_min <= 0) return {};
   for (const auto& members : linked_fragments(candidates.fragments.size(), candidates.links, chosen)) {
     CentrePath path = centre_path(candidates, members, chosen);
-    const double length = length_of(path);
+    const double length = path_length(path);
     if (length > (1 - nearly) * kind.length_min && length < (1 + nearly) * kind.length())
       whole.push_back(std::move(path));
   }

@@ -33,7 +33,7 @@ CentrePath at_even_steps(const CentrePath& path, double step) {
 
 }  // namespace
 
-double length_of(const CentrePath& path) {
+double path_length(const CentrePath& path) {
   return ways_along(path).back();
 }
 

@@ -10,7 +10,7 @@ namespace tanglebin {
 using CentrePath = std::vector<Eigen::Vector3d>;
 
 /// m
-double length_of(const CentrePath& path);
+double path_length(const CentrePath& path);
 
 /// What the tubes of a class look like, as far as whole ones are seen: bars are bent alike, and of a hose no
 /// place turns more sharply than those that are seen. The shape of a centre line is the distances between

@@ -85,6 +85,34 @@ TEST(ChooseLinks, MakeNoTubeThatLacksWhatWouldHaveBeenSeen) {
   EXPECT_FALSE(joined(0.8, 0));
 }
 
+// A tube of 24 cm with a right angle in its middle, in one piece.
+Fragment bent_fragment(const Vector3d& corner) {
+  Fragment fragment = straight_fragment(corner - Vector3d(0.12, 0, 0), corner + Vector3d(0, 0.12, 0));
+  fragment.nodes.clear();
+  for (int i = -12; i <= 12; ++i)
+    fragment.nodes.push_back(corner + (i < 0 ? Vector3d(0.01 * i, 0, 0) : Vector3d(0, 0.01 * i, 0)));
+  fragment.parents = {0};
+  for (std::size_t i = 0; i + 1 < fragment.nodes.size(); ++i) fragment.parents.push_back(i);
+  fragment.ends = {{0, fragment.nodes.front(), -Vector3d::UnitX()},
+                   {fragment.nodes.size() - 1, fragment.nodes.back(), Vector3d::UnitY()}};
+  fragment.length = 0.24;
+  return fragment;
+}
+
+// Two pieces in a row may be a straight tube, but not where all others are bent.
+TEST(ChooseLinks, MakeNoTubeThatLooksLikeNoOther) {
+  std::vector<Fragment> pieces = {straight_fragment({-0.12, -0.2, 0.05}, {-0.04, -0.2, 0.05}),
+                                  straight_fragment({0.04, -0.2, 0.05}, {0.12, -0.2, 0.05})};
+  for (Fragment& piece : pieces) {
+    for (FragmentEnd& end : piece.ends) end.hidden = 0.4;
+  }
+  TubeKind kind = chain_of(0.24);
+  kind.length_min = 0.24;
+  EXPECT_THAT(chosen_of(pieces, kind), SizeIs(1));
+  for (const double y : {0.0, 0.1, 0.2}) pieces.push_back(bent_fragment({0.3, y, 0.05}));
+  EXPECT_THAT(chosen_of(pieces, kind), IsEmpty());
+}
+
 TEST(ChooseLinks, CloseNoTube) {
   // Four sides of a square: three joins make it an open chain.
   const double s = 0.08;
