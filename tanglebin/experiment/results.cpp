@@ -422,11 +422,13 @@ void expect_free(const fs::path& directory, const Dataset& dataset, const Experi
                          "; use another directory");
 }
 
-void claim(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings) {
+void claim(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings,
+           const fs::path& staging) {
   expect_free(directory, dataset, settings);
   const fs::path file = directory / experiment_name;
-  if (!fs::exists(file))
-    write_file(file, experiment_text(experiment_json(dataset, settings), place_of(dataset), 0));
+  if (fs::exists(file)) return;
+  write_staged(file, experiment_text(experiment_json(dataset, settings), place_of(dataset), 0), staging);
+  sync_directory(directory);
 }
 
 void write_results(const fs::path& directory, const Dataset& dataset, const ExperimentSettings& settings,
@@ -437,8 +439,9 @@ void write_results(const fs::path& directory, const Dataset& dataset, const Expe
                                         [&](const std::string& line) { generation.append(line + '\n'); });
   generation.commit();
   const std::size_t count = finished.write(directory, all, staging);
-  write_file(directory / experiment_name,
-             experiment_text(experiment_json(dataset, settings), place_of(dataset), count));
+  write_staged(directory / experiment_name,
+               experiment_text(experiment_json(dataset, settings), place_of(dataset), count), staging);
+  sync_directory(directory);
 }
 
 std::size_t merge_results(const std::vector<fs::path>& parts, const fs::path& directory) {
@@ -471,7 +474,8 @@ std::size_t merge_results(const std::vector<fs::path>& parts, const fs::path& di
           read_if_there(parts.front() / generation_name, std::numeric_limits<std::size_t>::max()))
     write_staged(directory / generation_name, *generation, journal.staging());
   const std::size_t count = merged.write(directory, order, journal.staging());
-  write_file(directory / experiment_name, experiment_text(experiment, place, count));
+  write_staged(directory / experiment_name, experiment_text(experiment, place, count), journal.staging());
+  sync_directory(directory);
   journal.clear();
   return count;
 }

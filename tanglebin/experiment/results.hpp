@@ -116,9 +116,9 @@ private:
 void expect_free(const std::filesystem::path& directory, const Dataset& dataset,
                  const ExperimentSettings& settings);
 
-/// Writes experiment.json if the directory has none. Throws as expect_free() does.
-void claim(const std::filesystem::path& directory, const Dataset& dataset,
-           const ExperimentSettings& settings);
+/// Writes experiment.json if the directory has none, by way of `staging`. Throws as expect_free() does.
+void claim(const std::filesystem::path& directory, const Dataset& dataset, const ExperimentSettings& settings,
+           const std::filesystem::path& staging);
 
 /// Writes the files of FinishedRuns::write(), generation.jsonl and experiment.json.
 void write_results(const std::filesystem::path& directory, const Dataset& dataset,

@@ -108,7 +108,7 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
   expect_clouds(dataset);
   make_directories(directory);
   const Journal journal(directory);
-  claim(directory, dataset, settings);
+  claim(directory, dataset, settings, journal.staging());
   const RunGrid grid = grid_of(settings, dataset.recipe);
   const auto fold_journal = [&](const FinishedRuns& finished) {
     write_results(directory, dataset, settings, finished, journal.staging());

@@ -112,9 +112,9 @@ public:
     make_directories(request_.directory);
     {
       const Journal journal(request_.directory, request_.shard ? name_of(*request_.shard) : "");
-      claim();
+      claim(journal.staging());
       find_missing();
-      if (!missing_.empty()) write_index(false);
+      if (!missing_.empty()) write_index(false, journal.staging());
       write_missing(journal.staging());
     }
     summary_.is_complete = complete();
@@ -125,9 +125,9 @@ private:
   fs::path index_file() const { return request_.directory / index_name; }
 
   // Writes the index if there is none, or expects it to be of the same export.
-  void claim() const {
+  void claim(const fs::path& staging) const {
     const DirectoryLock lock(request_.directory);
-    if (!fs::exists(index_file())) write_index_file(false);
+    if (!fs::exists(index_file())) write_index_file(false, staging);
     const JsonRecord found = read_index();
     for (const auto& [key, value] : index_.items()) {
       if (!found.has(key)) found.fail(key, "nothing", value.dump());
@@ -138,15 +138,16 @@ private:
 
   JsonRecord read_index() const { return {read_file(index_file()), index_file().string(), 0}; }
 
-  void write_index(bool is_complete) const {
+  void write_index(bool is_complete, const fs::path& staging) const {
     const DirectoryLock lock(request_.directory);
-    write_index_file(is_complete);
+    write_index_file(is_complete, staging);
   }
 
-  void write_index_file(bool is_complete) const {
+  void write_index_file(bool is_complete, const fs::path& staging) const {
     Json index = index_;
     index["complete"] = is_complete;
-    write_file(index_file(), index.dump() + '\n');
+    write_staged(index_file(), index.dump() + '\n', staging);
+    sync_directory(request_.directory);
   }
 
   bool is_done(const ExportUnit& unit) const {
@@ -206,15 +207,16 @@ private:
   // last to end does so.
   bool complete() const {
     const DirectoryLock lock(request_.directory);
+    const fs::path staging = request_.directory / ".assembling.unfinished";
+    fs::remove_all(staging);  // of a run that was killed
     if (read_index().json().value("complete", false)) return true;
     const auto is_missing = [this](const ExportUnit& unit) { return !is_done(unit); };
     if (std::ranges::any_of(all_, is_missing)) return false;
-    const fs::path staging = request_.directory / ".assembling.unfinished";
     make_directories(staging);
     ExportFiles files(request_.directory, staging);
     format_.assemble(all_, files);
+    write_index_file(true, staging);
     fs::remove_all(staging);
-    write_index_file(true);
     return true;
   }
 

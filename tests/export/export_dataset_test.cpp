@@ -119,6 +119,21 @@ TEST_P(EveryFormat, HasTheSameBytesInOneRunInShardsAndAfterAnInterruption) {
   EXPECT_EQ(export_dataset(dataset(), request(GetParam(), one.path())).progress.found, 6U);
 }
 
+TEST(Export, LeavesNothingOfARunThatWasKilled) {
+  const TemporaryDirectory out;
+  const ExportRequest numpy = request(ExportFormat::numpy, out.path());
+  export_dataset(dataset(), numpy);
+  const auto whole = files_below(out.path());
+  // It wrote the index when it was killed: the first, or, of an export that is complete, the last.
+  for (const char* staging : {".journal.unfinished", ".assembling.unfinished"}) {
+    std::filesystem::create_directory(out / staging);
+    write_bytes(out / staging / ".tanglebin-1-0.tmp", "half");
+    EXPECT_TRUE(export_dataset(dataset(), numpy).is_complete);
+    EXPECT_EQ(files_below(out.path()), whole) << staging;
+    EXPECT_FALSE(std::filesystem::exists(out / staging));
+  }
+}
+
 TEST(Export, KeepsOutOfADirectoryThatIsNotItsOwn) {
   const TemporaryDirectory out;
   const ExportRequest whole = request(ExportFormat::numpy, out.path());
