@@ -68,6 +68,7 @@ TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius) : st
   constexpr double exact = 0.2;  // radii; no two tubes are known to be more alike
   constexpr std::size_t enough = 3;
   std::vector<Distances> all;
+  all.reserve(tubes.size());
   for (const CentrePath& tube : tubes) all.push_back(distances_along(tube));
   std::vector<double> misfits;
   for (std::size_t i = 0; i < tubes.size(); ++i) {

@@ -99,10 +99,10 @@ Fragment bent_fragment(const Vector3d& corner) {
   return fragment;
 }
 
-// Two pieces in a row may be a straight tube, but not where all others are bent.
+// Two pieces side by side may be a nearly straight tube, but not where all others are bent.
 TEST(ChooseLinks, MakeNoTubeThatLooksLikeNoOther) {
   std::vector<Fragment> pieces = {straight_fragment({-0.12, -0.2, 0.05}, {-0.04, -0.2, 0.05}),
-                                  straight_fragment({0.04, -0.2, 0.05}, {0.12, -0.2, 0.05})};
+                                  straight_fragment({0.04, -0.17, 0.05}, {0.12, -0.17, 0.05})};
   for (Fragment& piece : pieces) {
     for (FragmentEnd& end : piece.ends) end.hidden = 0.4;
   }

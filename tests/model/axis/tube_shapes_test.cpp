@@ -96,9 +96,9 @@ TEST(TubeShapes, WhatNoTubeHasIsStrange) {
   const TubeShapes shapes = bent_bars();
   CentrePath straight;
   for (int i = 0; i < 38; ++i) straight.emplace_back(i * node_step, 0, 0);
-  EXPECT_THAT(shapes.strangeness(straight), Ge(8));
-  EXPECT_THAT(shapes.strangeness(bent_bar(60 * degree, 100 * degree)), Ge(4));
-  EXPECT_THAT(shapes.strangeness(bent_bar(100 * degree, -100 * degree)), Ge(8));
+  EXPECT_THAT(shapes.strangeness(straight), Ge(2.5));
+  EXPECT_THAT(shapes.strangeness(bent_bar(60 * degree, 100 * degree)), Ge(2.5));
+  EXPECT_THAT(shapes.strangeness(bent_bar(100 * degree, -100 * degree)), Ge(2.5));
 }
 
 TEST(TubeShapes, TubesThatAreNotAlikeHaveNoShape) {
@@ -120,7 +120,7 @@ TEST(TubeShapes, ATubeThatIsLikeNoOtherDoesNotCount) {
                            bent_bar(105 * degree, 95 * degree), bent_bar(0, 0)},
                           bar_radius);
   ASSERT_TRUE(shapes.are_known());
-  EXPECT_THAT(shapes.strangeness(bent_bar(0, 0)), Ge(8));
+  EXPECT_THAT(shapes.strangeness(bent_bar(0, 0)), Ge(2.5));
 }
 
 TEST(PathLength, IsTheSumOfTheEdges) {
