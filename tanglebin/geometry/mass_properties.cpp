@@ -156,6 +156,7 @@ void add_capsule(const EdgeFrame& frame, const Capsule& capsule, const Eigen::Ve
                  const std::vector<Capsule>& filled, Moments& moments) {
   const Eigen::Matrix3d axes = frame.rotation.toRotationMatrix();
   std::vector<CapsuleAlong> filled_along;
+  filled_along.reserve(filled.size());
   for (const Capsule& other : filled) filled_along.emplace_back(other, axes.col(2));
   std::vector<Interval> taken;
   const auto add_ring = [&](double c, double weight) {

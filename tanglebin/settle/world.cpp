@@ -101,6 +101,12 @@ void look_up(dSpaceID space, Parts& parts) {
   for (int i = 0; i < dSpaceGetNumGeoms(space); ++i) parts.capsules.push_back(boxed(dSpaceGetGeom(space, i)));
 }
 
+const Parts& parts_of(dSpaceID space) {
+  Parts& parts = *static_cast<Parts*>(dGeomGetData(reinterpret_cast<dGeomID>(space)));
+  if (parts.capsules.empty()) look_up(space, parts);
+  return parts;
+}
+
 void find_near(const std::vector<Boxed>& capsules, const Boxed& other, std::vector<Boxed>& near) {
   near.clear();
   for (const Boxed& capsule : capsules) {
@@ -132,8 +138,7 @@ struct World::Implementation {
   void add_tube(const Tube& tube);
   void touch(dGeomID first, dGeomID second);
   void touch_tubes(dSpaceID first, dSpaceID second);
-  void touch_geoms(dGeomID first, dGeomID second);
-  const Parts& parts_of(dSpaceID space);
+  void touch_geoms(dGeomID first, dGeomID second) const;
 };
 
 void World::Implementation::add_tube(const Tube& tube) {
@@ -172,12 +177,6 @@ void World::Implementation::add_tube(const Tube& tube) {
   bodies.push_back(std::move(body));
 }
 
-const Parts& World::Implementation::parts_of(dSpaceID space) {
-  Parts& parts = *static_cast<Parts*>(dGeomGetData(reinterpret_cast<dGeomID>(space)));
-  if (parts.capsules.empty()) look_up(space, parts);
-  return parts;
-}
-
 // The same pairs in the same order as those of dSpaceCollide2, which tests each capsule of one tube against
 // each of the other. Most are not even near the other tube.
 void World::Implementation::touch_tubes(dSpaceID first, dSpaceID second) {
@@ -214,7 +213,7 @@ void World::Implementation::touch(dGeomID first, dGeomID second) {
   }
 }
 
-void World::Implementation::touch_geoms(dGeomID first, dGeomID second) {
+void World::Implementation::touch_geoms(dGeomID first, dGeomID second) const {
   const dBodyID first_body = dGeomGetBody(first);
   const dBodyID second_body = dGeomGetBody(second);
   const bool with_bin = first_body == nullptr || second_body == nullptr;
