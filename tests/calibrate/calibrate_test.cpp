@@ -95,7 +95,7 @@ TEST(Calibration, NeverGivesAProfileThatIsWorseThanTheDefaults) {
 
 TEST(Calibration, ComesBackFromAStartThatFindsNothing) {
   const TemporaryDirectory directory;
-  CalibrationSettings settings{.scenes = 2, .budget = {.evaluations = 200}};
+  CalibrationSettings settings{.scenes = 2, .budget = {.evaluations = 240}};
   settings.start = {{"axis.fragment.points_min", 2000}};
   const std::optional<Calibration> calibration =
       calibrate(test::finely_seen_recipe(), settings, directory / "run");
