@@ -55,7 +55,7 @@ TEST_F(ScanCommand, GivesTheTubesPointsAndWithBinTheBinsToo) {
   const std::string cloud = (directory_ / "cloud.ply").string();
   const auto tubes_only = run_program("scan " + configuration_.string() + " --out " + cloud);
   EXPECT_EQ(tubes_only.status, 0) << tubes_only.err;
-  EXPECT_THAT(tubes_only.out, HasSubstr("points on 1 tube"));
+  EXPECT_THAT(tubes_only.out, HasSubstr("points on 1 tube, "));
   EXPECT_THAT(read_ply(cloud).labels, Each(1));
   run_program("scan " + configuration_.string() + " --with-bin --out " + cloud);
   EXPECT_THAT(read_ply(cloud).labels, Contains(0));

@@ -62,8 +62,8 @@ CentrePath centre_path(const Candidates& candidates, const std::vector<std::size
   return path;
 }
 
-// The cost of looking unlike the whole tubes of the scan.
-double cost_of_shape(const Candidates& candidates, const CentrePath& chain) {
+// The cost of looking unlike the whole chains of the scan.
+double cost_of_looks(const Candidates& candidates, const CentrePath& chain) {
   constexpr double cost_max = 20;
   const double strangeness = candidates.shapes.strangeness(chain) - candidates.settings.strangeness_max;
   return std::clamp(candidates.settings.strangeness_weight * strangeness, 0.0, cost_max);
@@ -80,6 +80,17 @@ double cost_of_tree(const Candidates& candidates, const std::vector<std::size_t>
   const double missing = std::min(length, std::max(0.0, kind.length() - length));
   return misfit(seen, kind.segments) / (candidates.settings.misfit_unit * kind.radius) +
          missing / (candidates.settings.missing_unit * kind.radius);
+}
+
+bool has_shape_costs(const Candidates& candidates) {
+  return candidates.kind.branches() || candidates.shapes.are_known();
+}
+
+// The shape cost of a part: these fragments with the chosen links between them.
+double shape_cost(const Candidates& candidates, const std::vector<std::size_t>& fragments,
+                  const std::vector<std::size_t>& chosen) {
+  return candidates.kind.branches() ? cost_of_tree(candidates, fragments, chosen)
+                                    : cost_of_looks(candidates, centre_path(candidates, fragments, chosen));
 }
 
 /// A set of links in which no two share an end and every tube is possible.
@@ -163,9 +174,8 @@ private:
   }
 
   double cost_of(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
-    if (candidates_->kind.branches()) return cost_of_shape(tube, first, second, link);
-    const double of_length = cost_of_length(*candidates_, tube);
-    return candidates_->shapes.are_known() ? of_length + cost_of_shape(tube, first, second, link) : of_length;
+    const double of_length = candidates_->kind.branches() ? 0 : cost_of_length(*candidates_, tube);
+    return has_shape_costs(*candidates_) ? of_length + cost_of_shape(tube, first, second, link) : of_length;
   }
 
   double cost_of_shape(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
@@ -179,10 +189,7 @@ private:
     std::vector<std::size_t> chosen = taken_;
     chosen.push_back(link);
     std::ranges::sort(chosen);
-    return (*costs_)[tube.links] =
-               candidates_->kind.branches()
-                   ? cost_of_tree(*candidates_, fragments, chosen)
-                   : tanglebin::cost_of_shape(*candidates_, centre_path(*candidates_, fragments, chosen));
+    return (*costs_)[tube.links] = shape_cost(*candidates_, fragments, chosen);
   }
 
   const Candidates* candidates_;
@@ -286,10 +293,9 @@ void add_parts(Candidates& candidates) {
     Part part{.length = fragment.length, .ends = ends, .links = 0, .hidden = hidden, .cost = 0};
     if (!candidates.kind.branches()) {
       part.cost = cost_of_length(candidates, part);
-      if (candidates.shapes.are_known())
-        part.cost += cost_of_shape(candidates, centre_path(candidates, {i}, {}));
+      if (has_shape_costs(candidates)) part.cost += shape_cost(candidates, {i}, {});
     } else if (ends <= candidates.tube_ends_max) {  // with surplus ends it stays a tube by itself, at no cost
-      part.cost = cost_of_tree(candidates, {i}, {});
+      part.cost = shape_cost(candidates, {i}, {});
     }
     candidates.alone.push_back(part);
   }
