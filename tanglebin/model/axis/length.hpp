@@ -9,10 +9,11 @@
 
 namespace tanglebin {
 
-/// A kind of chains, with a length, m, in place of an unknown one: the length that most of the chains have of
-/// which the sensor saw both ends. If most have none in common, the largest of theirs. If no chain is seen
-/// from end to end, half as much again as the longest fragment. A length that was given, or the largest of a
-/// range, stays, unless three such chains agree that it is too short. Trees stay as they are.
+/// A kind of chains, with a length, m, in place of an unknown one. It is the length that many chains share,
+/// when their pieces are linked: at least three that are seen from end to end in one piece, or three tenths
+/// of the length of all. If chains have no length in common, it is the longest that is seen from end to end,
+/// or else half as much again as the longest fragment. A length that was given, or the largest of a range,
+/// stays, unless at least three chains agree that it is too short. Trees stay as they are.
 TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                      const LinkSettings& settings);
 

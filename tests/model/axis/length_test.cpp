@@ -44,11 +44,24 @@ TEST(WithLength, IsTheOneGivenIfItIsGiven) {
 }
 
 TEST(WithLength, IsNotTheOneGivenIfThreeTubesAreLonger) {
-  EXPECT_EQ(modelled_with(two_in_line(), 0, 0.22).kinds[0].length, 0.22);
+  EXPECT_NEAR(modelled_with(two_in_line(), 0, 0.22).kinds[0].length, 0.24, 0.005);
   const std::vector<Tube> longer = {test::chain(1, 0.0125, {{-0.2, -0.1, 0.0125}, {0.04, -0.1, 0.0125}}),
                                     test::chain(2, 0.0125, {{-0.2, 0, 0.0125}, {0.04, 0, 0.0125}}),
                                     test::chain(3, 0.0125, {{-0.2, 0.1, 0.0125}, {0.04, 0.1, 0.0125}})};
   EXPECT_NEAR(modelled_with(longer, 0, 0.22).kinds[0].length, 0.24, 0.005);
+  EXPECT_EQ(modelled_with({longer[0], longer[1]}, 0, 0.22).kinds[0].length, 0.22);
+}
+
+// Each is in two pieces, on either side of one that lies across.
+TEST(WithLength, IsThatOfTubesLongerThanAnyPieceThatIsSeen) {
+  std::vector<Tube> tubes = {test::chain(1, 0.0125, {{-0.06, -0.1, 0.0375}, {0.06, 0.1, 0.0375}})};
+  for (const double y : {-0.08, -0.03, 0.03, 0.08}) {
+    const auto id = static_cast<int>(tubes.size()) + 1;
+    tubes.push_back(test::chain(id, 0.0125, {{-0.2, y, 0.0125}, {0.2, y, 0.0125}}));
+  }
+  const AxisModel found = modelled_with(tubes, 0, infinite);
+  EXPECT_NEAR(found.kinds[0].length, 0.4, 0.005);
+  EXPECT_EQ(found.model.tubes.size(), 5U);
 }
 
 // Its ends are against the walls, which hide nothing.
