@@ -169,9 +169,8 @@ private:
   // Beyond the ends that a link takes, m.
   double hidden_beyond(const Link& link) const {
     const std::vector<Fragment>& fragments = candidates_->fragments;
-    const double from = unseen_way(fragments[link.fragment].ends[link.end]);
-    return ends_taken(link.kind) == 1 ? from
-                                      : from + unseen_way(fragments[link.to.fragment].ends[*link.to.end]);
+    const double from = fragments[link.fragment].ends[link.end].hidden;
+    return ends_taken(link.kind) == 1 ? from : from + fragments[link.to.fragment].ends[*link.to.end].hidden;
   }
 
   double cost_of(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
@@ -290,7 +289,7 @@ void add_parts(Candidates& candidates) {
     const Fragment& fragment = candidates.fragments[i];
     const int ends = static_cast<int>(fragment.ends.size());
     double hidden = 0;
-    for (const FragmentEnd& end : fragment.ends) hidden += unseen_way(end);
+    for (const FragmentEnd& end : fragment.ends) hidden += end.hidden;
     Part part{.length = fragment.length, .ends = ends, .links = 0, .hidden = hidden, .cost = 0};
     if (!candidates.kind.branches()) {
       part.cost = cost_of_length(candidates, part);

@@ -15,7 +15,6 @@ struct FragmentEnd {
   Eigen::Vector3d position;  ///< m
   Eigen::Vector3d outward;   ///< unit, along the centre line
   double hidden = 0;         ///< m, how far its tube may go on unseen, straight ahead (look_beyond_ends())
-  double along_wall = 0;     ///< m, how far from there, if a wall is in the way and the tube bends along it
 };
 
 /// A piece of a tube that is visible without a break.

@@ -50,14 +50,11 @@ bool RangeImage::hides(const Eigen::Vector3d& first, const Eigen::Vector3d& seco
   return nearest_in(middle, radius) < std::max(depth_of(camera_, first), depth_of(camera_, second));
 }
 
-bool RangeImage::is_solid(const Eigen::Vector3d& axis, double radius) const {
-  return std::ranges::any_of(solid_, [&](const Eigen::AlignedBox3d& part) {
-    return part.squaredExteriorDistance(axis) < radius * radius / 4;
-  });
-}
-
 bool RangeImage::shows_empty(const Eigen::Vector3d& axis, double radius) const {
-  if (is_solid(axis, radius)) return true;
+  const auto is_in = [&](const Eigen::AlignedBox3d& part) {
+    return part.squaredExteriorDistance(axis) < radius * radius / 4;
+  };
+  if (std::ranges::any_of(solid_, is_in)) return true;
   const std::optional<Eigen::Vector2d> image = project(camera_, axis);
   if (!image) return false;
   const double depth = depth_of(camera_, axis);

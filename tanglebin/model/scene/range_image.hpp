@@ -21,11 +21,8 @@ public:
 
   /// True if the camera looked past the axis of a tube of this radius (m) at this point: within a third of a
   /// radius around it, something was seen, and all of it lies behind the tube's surface. True too if the axis
-  /// is in what is solid.
+  /// is within half a radius of what is solid.
   bool shows_empty(const Eigen::Vector3d& axis, double radius) const;
-
-  /// True if a point is within half a radius (m) of what is solid, so that no tube's axis can be there.
-  bool is_solid(const Eigen::Vector3d& axis, double radius) const;
 
 private:
   // The smallest depth within `reach` pixels of a place in the image, ∞ if there is none. m

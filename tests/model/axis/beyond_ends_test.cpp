@@ -34,26 +34,6 @@ TEST(BeyondEnds, ATubeAcrossHidesWhatIsUnderIt) {
   EXPECT_LT(hidden, 5 * radius);
 }
 
-// A piece that points at the wall at y = −wall, 2 radii before it, m; and what is hidden beyond its end
-// there.
-double hidden_at_wall(const PointCloud& seen) {
-  const KnownScene known = test::paper_scene();
-  const double wall = known.support.bin.width / 2;
-  std::vector<Fragment> fragments = {
-      straight_fragment({0, 0.15 - wall, radius}, {0, 2 * radius - wall, radius})};
-  look_beyond_ends(fragments, radius, RangeImage(seen.points, known.camera, solid_parts(known.support)));
-  return unseen_way(fragments.front().ends[1]);
-}
-
-TEST(BeyondEnds, ATubeThatWasSeenToEndAtAWallDoesNotGoOn) {
-  EXPECT_LT(hidden_at_wall(test::scanned({})), radius);
-}
-
-// Nothing was measured there, as where the wall itself hides what lies along it.
-TEST(BeyondEnds, ATubeThatMeetsAWallMayGoOnAlongIt) {
-  EXPECT_GT(hidden_at_wall({}), 15 * radius);
-}
-
 TEST(UnseenLength, IsWhatNeitherWasSeenNorMayBeHidden) {
   TubeKind kind{.radius = 0.01, .segments = {{1, 2, 0.5}}, .length_min = 0.5};
   const LinkSettings settings{.length_tolerance = 0.04, .hidden_stretch = 2};
