@@ -20,11 +20,16 @@ using Eigen::Vector3d;
 struct Chain {
   double length;  ///< m
   bool is_whole;  ///< seen from end to end
+  bool is_cut;    ///< by the border of the image
 };
+
+bool leaves_view(const FragmentEnd& end, double radius, const RangeImage& seen) {
+  return !seen.covers(end.position + 2 * radius * end.outward, radius);
+}
 
 // The chains that the chosen links make of the fragments, the shortest first.
 std::vector<Chain> chains_of(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
-                             const std::vector<std::size_t>& chosen) {
+                             const std::vector<std::size_t>& chosen, double radius, const RangeImage& seen) {
   std::set<std::pair<std::size_t, std::size_t>> joined;
   for (const std::size_t i : chosen) {
     joined.insert({links[i].fragment, links[i].end});
@@ -34,13 +39,15 @@ std::vector<Chain> chains_of(const std::vector<Fragment>& fragments, const std::
   for (const std::size_t i : chosen) gaps[links[i].fragment] += links[i].gap;
   std::vector<Chain> chains;
   for (const std::vector<std::size_t>& members : linked_fragments(fragments.size(), links, chosen)) {
-    Chain chain{.length = 0, .is_whole = true};
+    Chain chain{.length = 0, .is_whole = true, .is_cut = false};
     for (const std::size_t member : members) {
       const Fragment& fragment = fragments[member];
       chain.length += fragment.length + gaps[member];
       for (std::size_t end = 0; end < fragment.ends.size(); ++end) {
         chain.length += (fragment.ends[end].position - fragment.nodes[fragment.ends[end].node]).norm();
-        if (!joined.contains({member, end}) && fragment.ends[end].hidden > 0) chain.is_whole = false;
+        if (joined.contains({member, end})) continue;
+        if (fragment.ends[end].hidden > 0) chain.is_whole = false;
+        if (leaves_view(fragment.ends[end], radius, seen)) chain.is_cut = true;
       }
     }
     chains.push_back(chain);
@@ -54,11 +61,16 @@ std::vector<Chain> chains_up_to(double longest, TubeKind kind, const std::vector
                                 const RangeImage& seen, const LinkSettings& settings) {
   kind.segments[0].length = longest;
   const std::vector<Link> links = find_links(fragments, seen, kind, settings);
-  return chains_of(fragments, links, choose_links(fragments, links, kind, settings));
+  return chains_of(fragments, links, choose_links(fragments, links, kind, settings), kind.radius, seen);
 }
 
 std::vector<Chain> whole(std::vector<Chain> chains) {
   std::erase_if(chains, [](const Chain& chain) { return !chain.is_whole; });
+  return chains;
+}
+
+std::vector<Chain> uncut(std::vector<Chain> chains) {
+  std::erase_if(chains, &Chain::is_cut);
   return chains;
 }
 
@@ -94,7 +106,7 @@ constexpr std::size_t enough = 3;  // chains that agree
 // bound breaks them at it, and at lengths that differ; any other leaves those that most links make at theirs.
 CommonLength common_length(const TubeKind& kind, const std::vector<Fragment>& fragments,
                            const RangeImage& seen, double longest, const LinkSettings& settings) {
-  const std::vector<Chain> alone = whole(chains_of(fragments, {}, {}));
+  const std::vector<Chain> alone = whole(chains_of(fragments, {}, {}, kind.radius, seen));
   const std::span<const Chain> alike_alone = of_one_length(alone);
   if (alike_alone.size() >= enough && length_max(alike_alone.back().length, settings) >= longest)
     return {alike_alone[alike_alone.size() / 2].length, alike_alone.size()};
@@ -107,9 +119,10 @@ CommonLength common_length(const TubeKind& kind, const std::vector<Fragment>& fr
   double best_share = some;
   for (const double bound : bounds) {
     const std::vector<Chain> chains = chains_up_to(bound * longest, kind, fragments, seen, settings);
-    const std::span<const Chain> alike = of_one_length(chains);
+    const std::vector<Chain> may_be_whole = uncut(chains);
+    const std::span<const Chain> alike = of_one_length(may_be_whole);
     const double share = sum_of_lengths(alike) / sum_of_lengths(chains);
-    if (share < best_share || alike.back().length > at_bound * bound * longest) continue;
+    if (alike.empty() || share < best_share || alike.back().length > at_bound * bound * longest) continue;
     common = {alike.back().length, alike.size()};
     best_share = share;
     if (share > most) break;

@@ -62,4 +62,13 @@ bool RangeImage::shows_empty(const Eigen::Vector3d& axis, double radius) const {
   return std::isfinite(nearest) && nearest > depth - radius / 2;
 }
 
+bool RangeImage::covers(const Eigen::Vector3d& point, double radius) const {
+  const std::optional<Eigen::Vector2d> image = project(camera_, point);
+  if (!image) return false;
+  const double depth = depth_of(camera_, point);
+  const Eigen::Array2d size(camera_.width - 1, camera_.height - 1);
+  const Eigen::Array2d margin = Eigen::Array2d(camera_.fx, camera_.fy) * radius / depth;
+  return (image->array() >= margin).all() && (image->array() <= size - margin).all();
+}
+
 }  // namespace tanglebin

@@ -24,6 +24,9 @@ public:
   /// is within half a radius of what is solid.
   bool shows_empty(const Eigen::Vector3d& axis, double radius) const;
 
+  /// True if a ball of this radius (m) around the point is wholly in the camera's view.
+  bool covers(const Eigen::Vector3d& point, double radius) const;
+
 private:
   // The smallest depth within `reach` pixels of a place in the image, ∞ if there is none. m
   double nearest_in(const Eigen::Vector2d& middle, double reach) const;
