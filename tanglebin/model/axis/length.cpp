@@ -144,7 +144,7 @@ TubeKind with_checked_length(TubeKind kind, const std::vector<Fragment>& fragmen
 
 TubeKind with_found_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                            double longest, const LinkSettings& settings) {
-  constexpr double hidden = 1.5;  // the length of a chain, against the longest fragment
+  constexpr double hidden = 2;  // the length of a chain, against the longest fragment
   const CommonLength common = common_length(kind, fragments, seen, longest, settings);
   if (common.chains > 0) {
     kind.segments[0].length = std::max(common.length, longest);
