@@ -13,7 +13,7 @@
 
 #include "long_work.hpp"
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/profile/profile.hpp"
 
 namespace tanglebin::python {

@@ -12,6 +12,8 @@
 #include "arrays.hpp"
 #include "images.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
+#include "tanglebin/files/read_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/depth_input.hpp"
@@ -21,8 +23,6 @@
 #include "tanglebin/io/pcd.hpp"
 #include "tanglebin/io/ply.hpp"
 #include "tanglebin/io/read_cloud.hpp"
-#include "tanglebin/io/read_file.hpp"
-#include "tanglebin/io/safe_file.hpp"
 
 namespace tanglebin::python {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "arrays.hpp"
 #include "long_work.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/recipe/doubts.hpp"
 #include "tanglebin/simulate/simulate.hpp"
 #include "tanglebin/simulate/world_sdf.hpp"

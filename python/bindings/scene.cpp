@@ -12,7 +12,7 @@
 #include "arrays.hpp"
 #include "long_work.hpp"
 #include "tanglebin/experiment/run.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/model/locate/locate.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"
 #include "tanglebin/scene/camera_file.hpp"

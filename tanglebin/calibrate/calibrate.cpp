@@ -13,10 +13,10 @@
 #include "tanglebin/calibrate/learn_links_once.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/dataset/versions.hpp"
+#include "tanglebin/files/json_record.hpp"
+#include "tanglebin/files/read_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/geometry/camera.hpp"
-#include "tanglebin/io/json_record.hpp"
-#include "tanglebin/io/read_file.hpp"
-#include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/runs/interrupt_guard.hpp"
 #include "tanglebin/scan/sensor.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "tanglebin/calibrate/scene_scores.hpp"
 #include "tanglebin/experiment/learn_links.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/model/parameters.hpp"
 #include "tanglebin/profile/profile.hpp"
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/model/scene/segment_tree.hpp"
 #include "tanglebin/runs/shard.hpp"
 

@@ -18,7 +18,7 @@
 #include "tanglebin/dataset/versions.hpp"
 #include "tanglebin/experiment/learn_confidence.hpp"
 #include "tanglebin/experiment/learn_links.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/model/parameters.hpp"
 #include "tanglebin/profile/profile.hpp"
 

@@ -10,7 +10,7 @@
 #include "tanglebin/base/random.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/sha256.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/runs/file_lock.hpp"
 #include "tanglebin/runs/journal.hpp"
 #include "tanglebin/runs/workers.hpp"

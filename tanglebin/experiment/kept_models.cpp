@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "tanglebin/cloud/label_colors.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/ply.hpp"
-#include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/model/tubes_json.hpp"
 
 namespace tanglebin {

@@ -10,9 +10,9 @@
 #include "tanglebin/cloud/images.hpp"
 #include "tanglebin/export/format.hpp"
 #include "tanglebin/export/mask.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/mesh.hpp"
-#include "tanglebin/io/read_file.hpp"
 #include "tanglebin/scan/scan_output.hpp"
 
 namespace tanglebin {

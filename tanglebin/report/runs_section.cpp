@@ -6,7 +6,7 @@
 #include <optional>
 #include <tuple>
 
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/files/json_record.hpp"
 #include "tanglebin/report/html.hpp"
 #include "tanglebin/report/script.hpp"
 #include "tanglebin/report/sections.hpp"

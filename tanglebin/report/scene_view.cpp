@@ -12,9 +12,9 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/picked.hpp"
+#include "tanglebin/files/json_record.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/io/images.hpp"
-#include "tanglebin/io/json_record.hpp"
 #include "tanglebin/model/scene/filter.hpp"
 #include "tanglebin/report/document.hpp"
 #include "tanglebin/report/embedded.hpp"

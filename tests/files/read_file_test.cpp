@@ -1,15 +1,13 @@
-#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/files/read_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "tanglebin/io/configuration.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/temporary_directory.hpp"
 
@@ -72,12 +70,6 @@ TEST(EachLine, ThatIsEndlessIsAnErrorThatNamesIt) {
   EXPECT_THAT(complaint([&] { for_each_line(directory / "file", [&](const FileLine&) { ++lines; }); }),
               HasSubstr("file:2: found a line of 67108864 bytes or more, expected a shorter one"));
   EXPECT_EQ(lines, 1U);
-}
-
-TEST(ReadConfiguration, OfAnEndlessLineIsAnError) {
-  std::ifstream zeros("/dev/zero", std::ios::binary);
-  EXPECT_THAT(complaint([&] { read_configuration(zeros, "zeros"); }),
-              HasSubstr("zeros:1: line longer than 65535 bytes"));
 }
 
 }  // namespace

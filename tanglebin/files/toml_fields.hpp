@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "tanglebin/io/toml_table.hpp"
+#include "tanglebin/files/toml_table.hpp"
 
 // Internal to the library: the keys of a TOML table and the members of a struct that they set.
 namespace tanglebin {

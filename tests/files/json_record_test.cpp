@@ -1,4 +1,4 @@
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/files/json_record.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tanglebin/io/toml_table.hpp"
+#include "tanglebin/files/toml_table.hpp"
 
 #include <fmt/format.h>
 

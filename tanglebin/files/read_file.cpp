@@ -1,4 +1,4 @@
-#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/files/read_file.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 
 #include <fmt/core.h>
 #include <gmock/gmock.h>

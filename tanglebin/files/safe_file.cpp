@@ -1,4 +1,4 @@
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/core.h>
