@@ -50,9 +50,10 @@ tanglebin_room(experiment   TARGET datasets    ROOMS base files geometry cloud i
                                                      score recipe runs dataset)
 tanglebin_room(calibrate    TARGET datasets    ROOMS base files geometry model profile scan recipe runs dataset
                                                      experiment)
-tanglebin_room(report       TARGET datasets    ROOMS base files geometry cloud io model/scene model/axis model/paper
-                                                     score scan recipe dataset experiment)
+tanglebin_room(pictures     TARGET datasets    ROOMS base geometry cloud model/axis model/paper scan)
+tanglebin_room(report       TARGET datasets    ROOMS base files geometry cloud io model/scene score recipe dataset
+                                                     experiment pictures)
 tanglebin_room(export       TARGET exports     ROOMS base files geometry cloud io settle scan recipe runs dataset)
 tanglebin_room(cli          TARGET program     ROOMS base files geometry cloud io model/scene model/axis model/paper
                                                      model profile scene score scan recipe runs dataset experiment
-                                                     calibrate report export)
+                                                     calibrate pictures report export)

@@ -10,7 +10,7 @@
 #include "tanglebin/cli/print.hpp"
 #include "tanglebin/dataset/dry_run.hpp"
 #include "tanglebin/io/images.hpp"
-#include "tanglebin/report/picture_of_scan.hpp"
+#include "tanglebin/pictures/picture_of_scan.hpp"
 #include "tanglebin/report/text.hpp"
 #include "tanglebin/scan/scanner.hpp"
 

@@ -26,7 +26,7 @@
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
 #include "tanglebin/model/scene/support_frame.hpp"
-#include "tanglebin/report/pictures_of_steps.hpp"
+#include "tanglebin/pictures/pictures_of_steps.hpp"
 #include "tanglebin/scene/locate_support.hpp"
 #include "tanglebin/scene/read_measurement.hpp"
 

@@ -15,7 +15,7 @@
 #include "tanglebin/cli/outputs.hpp"
 #include "tanglebin/cli/scene_options.hpp"
 #include "tanglebin/io/images.hpp"
-#include "tanglebin/report/picture.hpp"
+#include "tanglebin/pictures/picture.hpp"
 
 namespace tanglebin::cli {
 namespace {

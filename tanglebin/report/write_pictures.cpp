@@ -11,9 +11,9 @@
 #include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/io/images.hpp"
+#include "tanglebin/pictures/picture.hpp"
 #include "tanglebin/recipe/case_json.hpp"
 #include "tanglebin/report/model_again.hpp"
-#include "tanglebin/report/picture.hpp"
 
 namespace tanglebin {
 namespace {

@@ -1,4 +1,4 @@
-#include "tanglebin/report/palette.hpp"
+#include "tanglebin/pictures/palette.hpp"
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cloud/label_colors.hpp"

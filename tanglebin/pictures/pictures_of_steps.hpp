@@ -6,7 +6,7 @@
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/model/axis/axis_method.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
-#include "tanglebin/report/shading.hpp"
+#include "tanglebin/pictures/shading.hpp"
 
 namespace tanglebin {
 

@@ -1,4 +1,4 @@
-#include "tanglebin/report/picture_of_scan.hpp"
+#include "tanglebin/pictures/picture_of_scan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/geometry/intersect.hpp"
-#include "tanglebin/report/palette.hpp"
-#include "tanglebin/report/picture.hpp"
+#include "tanglebin/pictures/palette.hpp"
+#include "tanglebin/pictures/picture.hpp"
 #include "tanglebin/scan/scanner.hpp"
 
 namespace tanglebin {

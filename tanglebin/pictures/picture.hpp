@@ -6,8 +6,8 @@
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/geometry/support.hpp"
 #include "tanglebin/geometry/tube.hpp"
-#include "tanglebin/report/shading.hpp"
-#include "tanglebin/report/view.hpp"
+#include "tanglebin/pictures/shading.hpp"
+#include "tanglebin/pictures/view.hpp"
 
 namespace tanglebin {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tanglebin/report/shading.hpp"
+#include "tanglebin/pictures/shading.hpp"
 #include "tanglebin/scan/scan.hpp"
 
 namespace tanglebin {

@@ -1,4 +1,4 @@
-#include "tanglebin/report/view.hpp"
+#include "tanglebin/pictures/view.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

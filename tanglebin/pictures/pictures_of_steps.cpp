@@ -1,9 +1,9 @@
-#include "tanglebin/report/pictures_of_steps.hpp"
+#include "tanglebin/pictures/pictures_of_steps.hpp"
 
 #include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/geometry/labels.hpp"
-#include "tanglebin/report/picture.hpp"
+#include "tanglebin/pictures/picture.hpp"
 
 namespace tanglebin {
 namespace {

@@ -1,4 +1,4 @@
-#include "tanglebin/report/shading.hpp"
+#include "tanglebin/pictures/shading.hpp"
 
 #include <algorithm>
 #include <cmath>

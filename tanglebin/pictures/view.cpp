@@ -1,4 +1,4 @@
-#include "tanglebin/report/view.hpp"
+#include "tanglebin/pictures/view.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "tanglebin/report/picture.hpp"
+#include "tanglebin/pictures/picture.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

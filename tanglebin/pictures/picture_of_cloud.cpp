@@ -4,8 +4,8 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
-#include "tanglebin/report/palette.hpp"
-#include "tanglebin/report/picture.hpp"
+#include "tanglebin/pictures/palette.hpp"
+#include "tanglebin/pictures/picture.hpp"
 
 namespace tanglebin {
 namespace {

@@ -1,4 +1,4 @@
-#include "tanglebin/report/picture_of_scan.hpp"
+#include "tanglebin/pictures/picture_of_scan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/report/palette.hpp"
+#include "tanglebin/pictures/palette.hpp"
 
 namespace tanglebin {
 namespace {
