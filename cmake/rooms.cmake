@@ -54,6 +54,9 @@ tanglebin_room(pictures     TARGET datasets    ROOMS base geometry cloud model/a
 tanglebin_room(report       TARGET datasets    ROOMS base files geometry cloud io model/scene score recipe dataset
                                                      experiment pictures)
 tanglebin_room(export       TARGET exports     ROOMS base files geometry cloud io settle scan recipe runs dataset)
+tanglebin_room(cli/terminal TARGET program     ROOMS base runs dataset report)
+tanglebin_room(cli/options  TARGET program     ROOMS base files geometry cloud io model/scene model profile scene
+                                                     recipe runs dataset experiment report cli/terminal)
 tanglebin_room(cli          TARGET program     ROOMS base files geometry cloud io model/scene model/axis model/paper
                                                      model profile scene score scan recipe runs dataset experiment
-                                                     calibrate pictures report export)
+                                                     calibrate pictures report export cli/terminal cli/options)

@@ -21,15 +21,15 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/checks.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/exit_status.hpp"
-#include "tanglebin/cli/many_cases.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/print.hpp"
-#include "tanglebin/cli/progress_report.hpp"
-#include "tanglebin/cli/shard_option.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/checks.hpp"
+#include "tanglebin/cli/options/many_cases.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/options/shard_option.hpp"
+#include "tanglebin/cli/terminal/exit_status.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
+#include "tanglebin/cli/terminal/progress_report.hpp"
 
 namespace tanglebin::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/dataset/dry_run.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/pictures/picture_of_scan.hpp"

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/dataset/versions.hpp"
 #include "tanglebin/experiment/learn_confidence.hpp"
 #include "tanglebin/experiment/learn_links.hpp"

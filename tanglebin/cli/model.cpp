@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/model_options.hpp"
 #include "tanglebin/cli/model_report.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/print.hpp"
-#include "tanglebin/cli/scene_options.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/model_options.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/options/scene_options.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
 #include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/io/images.hpp"

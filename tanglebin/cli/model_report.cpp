@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/exit_status.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/terminal/exit_status.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/mesh.hpp"
 #include "tanglebin/model/tubes_json.hpp"

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "tanglebin/base/constants.hpp"
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/checks.hpp"
-#include "tanglebin/cli/cloud_or_tubes.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/scene_options.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/checks.hpp"
+#include "tanglebin/cli/options/cloud_or_tubes.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/options/scene_options.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/pictures/picture.hpp"
 

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/print.hpp"
-#include "tanglebin/cli/scene_options.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/options/scene_options.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/geometry/bin.hpp"
 #include "tanglebin/geometry/view_of_bin.hpp"

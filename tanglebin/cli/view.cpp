@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/cloud_or_tubes.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/scene_options.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/cloud_or_tubes.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/options/scene_options.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/io/read_cloud.hpp"
 #include "tanglebin/io/read_tubes.hpp"

@@ -1,4 +1,4 @@
-#include "tanglebin/cli/many_cases.hpp"
+#include "tanglebin/cli/options/many_cases.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/checks.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/checks.hpp"
 
 namespace tanglebin::cli {
 namespace {

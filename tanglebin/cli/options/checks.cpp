@@ -1,4 +1,4 @@
-#include "tanglebin/cli/checks.hpp"
+#include "tanglebin/cli/options/checks.hpp"
 
 #include <fmt/format.h>
 

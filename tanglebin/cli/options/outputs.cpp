@@ -1,4 +1,4 @@
-#include "tanglebin/cli/outputs.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/cli/arguments.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
 
 namespace tanglebin::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "tanglebin/cli/cloud_or_tubes.hpp"
+#include "tanglebin/cli/options/cloud_or_tubes.hpp"
 
 #include <cctype>
 #include <cerrno>
@@ -9,7 +9,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/cli/arguments.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
 #include "tanglebin/io/read_cloud.hpp"
 #include "tanglebin/io/read_tubes.hpp"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "tanglebin/cli/progress.hpp"
+#include "tanglebin/cli/terminal/progress.hpp"
 #include "tanglebin/dataset/run_observer.hpp"
 
 namespace CLI {

@@ -1,9 +1,9 @@
-#include "tanglebin/cli/model_options.hpp"
+#include "tanglebin/cli/options/model_options.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/model/parameters.hpp"
 
 namespace tanglebin::cli {

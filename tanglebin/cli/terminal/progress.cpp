@@ -1,4 +1,4 @@
-#include "tanglebin/cli/progress.hpp"
+#include "tanglebin/cli/terminal/progress.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "tanglebin/cli/arguments.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "tanglebin/cli/progress_report.hpp"
+#include "tanglebin/cli/terminal/progress_report.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 
 namespace tanglebin::cli {
 namespace {

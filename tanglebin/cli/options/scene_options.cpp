@@ -1,4 +1,4 @@
-#include "tanglebin/cli/scene_options.hpp"
+#include "tanglebin/cli/options/scene_options.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/experiment/run.hpp"
 #include "tanglebin/files/read_file.hpp"

@@ -1,13 +1,13 @@
-#include "tanglebin/cli/shard_option.hpp"
+#include "tanglebin/cli/options/shard_option.hpp"
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdlib>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/checks.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/checks.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 
 namespace tanglebin::cli {
 namespace {
