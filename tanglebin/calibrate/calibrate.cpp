@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <sstream>
 #include <utility>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/calibrate/calibration_scenes.hpp"
 #include "tanglebin/calibrate/learn_links_once.hpp"
@@ -31,9 +31,7 @@ using Seconds = std::chrono::duration<double>;
 class BudgetSpent : public std::exception {};
 
 std::string text_of(const Recipe& recipe) {
-  std::ostringstream text;
-  write_recipe(text, recipe);
-  return std::move(text).str();
+  return bytes_of([&](std::ostream& out) { write_recipe(out, recipe); });
 }
 
 // What the scores in a directory depend on.

@@ -6,10 +6,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/options/arguments.hpp"
@@ -119,11 +119,11 @@ void learn_for_tubes(const LearnArguments& arguments) {
 }
 
 void write_weights(const LinkWeights& weights, const LearnArguments& arguments) {
-  std::ostringstream profile;
-  write_profile(profile, {.parameters = link_parameters(weights), .method = Method::axis},
-                fmt::format("Weights of links, learned by tanglebin {} from {}", versions().at("tanglebin"),
-                            fmt::join(arguments.datasets, ", ")));
-  write_output(*arguments.out, profile.str());
+  const std::string title = fmt::format("Weights of links, learned by tanglebin {} from {}",
+                                        versions().at("tanglebin"), fmt::join(arguments.datasets, ", "));
+  write_output(*arguments.out, bytes_of([&](std::ostream& out) {
+    write_profile(out, {.parameters = link_parameters(weights), .method = Method::axis}, title);
+  }));
 }
 
 void learn_for_links(const LearnArguments& arguments) {

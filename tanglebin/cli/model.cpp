@@ -4,11 +4,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/model_report.hpp"
@@ -47,13 +47,13 @@ struct ModelArguments {
 };
 
 std::string cloud_bytes(const PointCloud& cloud, const Model& model, const std::string& file) {
-  std::ostringstream out;
-  if (is_pcd(file)) {
-    write_pcd(out, labelled(cloud, model.labels));
-  } else {
-    write_ply(out, labelled(cloud, model.labels), "unit and frame of the input");
-  }
-  return std::move(out).str();
+  return bytes_of([&](std::ostream& out) {
+    if (is_pcd(file)) {
+      write_pcd(out, labelled(cloud, model.labels));
+    } else {
+      write_ply(out, labelled(cloud, model.labels), "unit and frame of the input");
+    }
+  });
 }
 
 void print_summary(const ModelArguments& arguments, const ResolvedScene& scene, const Model& model) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/dataset/dataset_summary.hpp"
@@ -71,9 +72,7 @@ Json result_head(const RunId& run, const CaseRecord& scene) {
 
 // What the methods are told, as a scene file has it; empty if it is what the recipe says.
 std::string scene_text(const Scene& scene) {
-  std::ostringstream text;
-  write_scene(text, scene);
-  return std::move(text).str();
+  return bytes_of([&](std::ostream& out) { write_scene(out, scene); });
 }
 
 Json limits_json(const ProcessLimits& limits) {
