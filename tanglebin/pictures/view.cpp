@@ -9,16 +9,13 @@
 #include <string>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/expect.hpp"
 
 namespace tanglebin {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-void require(bool valid, const char* field, const std::string& found, const std::string& expected) {
-  if (!valid) throw InputError({.file = "", .line = 0, .field = field}, found, expected);
-}
 
 void require_near(const Vector3d& point, const std::string& name) {
   const double farthest = point.cwiseAbs().maxCoeff();
@@ -29,8 +26,8 @@ void require_near(const Vector3d& point, const std::string& name) {
 }
 
 void require_size(int pixels, const char* field) {
-  require(pixels >= 1 && pixels <= largest_picture, field, std::to_string(pixels),
-          "1 to " + std::to_string(largest_picture) + " pixels");
+  expect(pixels >= 1 && pixels <= largest_picture, field, std::to_string(pixels),
+         "1 to " + std::to_string(largest_picture) + " pixels");
 }
 
 /// Camera frame → world frame, for a viewer in this direction who looks at the scene, upright.
@@ -49,9 +46,9 @@ Matrix3d orientation(const View& view) {
 }  // namespace
 
 void validate(const View& view) {
-  require(std::isfinite(view.azimuth), "azimuth", std::to_string(view.azimuth), "a finite angle");
-  require(std::abs(view.elevation) <= std::numbers::pi / 2, "elevation",
-          fmt::format("{:g}°", view.elevation * 180 / std::numbers::pi), "-90° to 90°");
+  expect(std::isfinite(view.azimuth), "azimuth", std::to_string(view.azimuth), "a finite angle");
+  expect(std::abs(view.elevation) <= std::numbers::pi / 2, "elevation",
+         fmt::format("{:g}°", view.elevation * 180 / std::numbers::pi), "-90° to 90°");
   require_size(view.width, "width");
   require_size(view.height, "height");
 }
