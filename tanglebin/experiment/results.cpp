@@ -78,7 +78,7 @@ std::string scene_text(const Scene& scene) {
 Json limits_json(const ProcessLimits& limits) {
   Json json;
   json["time_limit"] = std::chrono::duration<double>(limits.time).count();
-  json["memory_limit"] = limits.memory ? Json(*limits.memory) : Json();
+  json["memory_limit"] = number_or_null(limits.memory);
   return json;
 }
 

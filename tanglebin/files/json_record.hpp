@@ -23,6 +23,12 @@ Json parse_json(const std::string& text, const InputPlace& place);
 /// Seeds are hexadecimal text. Many JSON readers convert numbers to double, which cannot hold all 64 bits.
 std::string seed_text(std::uint64_t seed);
 
+/// A number as JSON; null if there is none.
+template <typename Number>
+Json number_or_null(const std::optional<Number>& number) {
+  return number ? Json(*number) : Json();
+}
+
 /// A JSON object from a file, with values read by name. Every function throws InputError with file, line and
 /// field if a value is missing or not as expected.
 class JsonRecord {

@@ -15,10 +15,6 @@
 namespace tanglebin {
 namespace {
 
-Json number_or_null(const std::optional<double>& number) {
-  return number ? Json(*number) : Json();
-}
-
 auto key_of(const RunKey& run) {
   return std::tuple(run.id.set, run.id.tubes, run.id.number, run.scanner, run.method, run.ratio);
 }
