@@ -42,16 +42,11 @@ View view_of(const Options& options) {
           .height = options.height};
 }
 
-Support support_of(const Options& options) {
-  const Scene scene = options.scene ? scene_named(*options.scene, options.input) : Scene{};
-  return scene.support.value_or(Support{.shape = Support::Shape::nothing});
-}
-
 Picture draw(const CloudOrTubes& input, const Options& options) {
   if (const auto* cloud = std::get_if<PointCloud>(&input))
     return picture_of_cloud(*cloud, view_of(options), options.input);
-  return picture_of_tubes(std::get<std::vector<Tube>>(input), support_of(options), view_of(options),
-                          options.input);
+  return picture_of_tubes(std::get<std::vector<Tube>>(input), support_in(options.scene, options.input),
+                          view_of(options), options.input);
 }
 
 void run(const Options& options) {

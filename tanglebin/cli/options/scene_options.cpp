@@ -258,6 +258,11 @@ Scene scene_named(const std::string& scene, const std::string& input) {
   return is_recipe(path) ? scene_of_recipe(path) : read_scene(path, number_of(input));
 }
 
+Support support_in(const std::optional<std::string>& scene, const std::string& input) {
+  const Scene named = scene ? scene_named(*scene, input) : Scene{};
+  return named.support.value_or(Support{.shape = Support::Shape::nothing});
+}
+
 Scene scene_of(const SceneOptions& options, const std::string& input) {
   Scene scene = options.scene ? scene_named(*options.scene, input) : Scene{};
   override_camera(options, input, scene);

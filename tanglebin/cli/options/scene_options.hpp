@@ -39,6 +39,9 @@ void add_tube_options(CLI::App& command, SceneOptions& options);
 /// which `input`, a file, is. Throws InputError naming what is wrong with it.
 Scene scene_named(const std::string& scene, const std::string& input);
 
+/// The support of the scene that --scene names; nothing without one.
+Support support_in(const std::optional<std::string>& scene, const std::string& input);
+
 /// A finished case of a dataset.
 struct DatasetCase {
   Dataset dataset;
