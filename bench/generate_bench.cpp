@@ -11,7 +11,7 @@
 
 #include "bench/paper_sets.hpp"
 #include "tanglebin/dataset/case_files.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/simulate/simulate.hpp"
 
 namespace tanglebin {

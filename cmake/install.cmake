@@ -17,10 +17,10 @@ set(public_headers
   scan/scan scan/scan_output scan/scanner scan/sensor
   recipe/case_id recipe/recipe
   simulate/simulate simulate/world_sdf
-  model/model_tubes model/parameters model/tubes_json model/locate/locate model/axis/axis_settings model/axis/link_weights
+  model/model_tubes model/parameters model/tubes_json model/locate/locate
+  model/axis/settings/axis_settings model/axis/settings/link_weights
   model/paper/paper_settings model/scene/evidence model/scene/finding model/scene/known_scene model/scene/model
-  model/scene/segment_tree
-  model/scene/shared_settings
+  model/scene/segment_tree model/scene/shared_settings
   profile/profile
   scene/camera_file scene/read_measurement scene/read_scene scene/resolve_scene scene/scene scene/write_scene
   score/confusion score/metrics score/score score/score_clouds score/score_tubes)

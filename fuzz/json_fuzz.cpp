@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/files/json_record.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

@@ -8,12 +8,12 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "long_work.hpp"
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/profile/profile.hpp"
 
 namespace tanglebin::python {
@@ -55,9 +55,7 @@ void bind_what_it_reached(py::module_& module) {
 }
 
 void write_profile_file(const fs::path& file, const Profile& profile, const std::string& title) {
-  std::ostringstream text;
-  write_profile(text, profile, title);
-  write_file(file, std::move(text).str());
+  write_file(file, bytes_of([&](std::ostream& out) { write_profile(out, profile, title); }));
 }
 
 void bind_profiles(py::module_& module) {

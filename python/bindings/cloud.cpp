@@ -4,14 +4,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "any_array.hpp"
 #include "arrays.hpp"
 #include "images.hpp"
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
+#include "tanglebin/files/read_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/depth_input.hpp"
@@ -21,8 +23,6 @@
 #include "tanglebin/io/pcd.hpp"
 #include "tanglebin/io/ply.hpp"
 #include "tanglebin/io/read_cloud.hpp"
-#include "tanglebin/io/read_file.hpp"
-#include "tanglebin/io/safe_file.hpp"
 
 namespace tanglebin::python {
 namespace {
@@ -225,11 +225,7 @@ void bind_point_cloud(py::module_& module) {
 // Writes what `write` puts into a stream to a file, whole or not at all.
 template <typename Write>
 void write_to(const fs::path& file, const Write& write) {
-  without_gil([&] {
-    std::ostringstream out;
-    write(out);
-    write_file(file, out.view());
-  });
+  without_gil([&] { write_file(file, bytes_of(write)); });
 }
 
 LabelImage read_labels(const fs::path& file) {

@@ -9,7 +9,8 @@
 
 #include "arrays.hpp"
 #include "long_work.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/base/bytes_of.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/recipe/doubts.hpp"
 #include "tanglebin/simulate/simulate.hpp"
 #include "tanglebin/simulate/world_sdf.hpp"
@@ -19,9 +20,7 @@ namespace {
 
 std::string recipe_text(const Recipe& recipe) {
   validate(recipe);
-  std::ostringstream out;
-  write_recipe(out, recipe);
-  return std::move(out).str();
+  return bytes_of([&](std::ostream& out) { write_recipe(out, recipe); });
 }
 
 Recipe recipe_from(const std::string& text) {
@@ -170,9 +169,7 @@ void bind_simulate(py::module_& module) {
       "write_world",
       [](const std::filesystem::path& file, const std::vector<Tube>& tubes, const Bin& bin,
          const Camera& camera, const SettleSettings& settle) {
-        std::ostringstream out;
-        write_world(out, tubes, bin, camera, settle);
-        write_file(file, out.view());
+        write_file(file, bytes_of([&](std::ostream& out) { write_world(out, tubes, bin, camera, settle); }));
       },
       py::arg("file"), py::arg("tubes"), py::arg("bin"), py::arg("camera"),
       py::arg_v("settle", SettleSettings{}, "SettleSettings()"), doc::write_world);

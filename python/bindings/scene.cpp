@@ -11,8 +11,9 @@
 
 #include "arrays.hpp"
 #include "long_work.hpp"
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/experiment/run.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/model/locate/locate.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"
 #include "tanglebin/scene/camera_file.hpp"
@@ -28,9 +29,7 @@ namespace fs = std::filesystem;
 
 std::string scene_text(const Scene& scene) {
   validate(scene);
-  std::ostringstream out;
-  write_scene(out, scene);
-  return std::move(out).str();
+  return bytes_of([&](std::ostream& out) { write_scene(out, scene); });
 }
 
 Scene scene_from(const std::string& text) {

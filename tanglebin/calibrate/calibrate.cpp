@@ -5,18 +5,18 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <sstream>
 #include <utility>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/calibrate/calibration_scenes.hpp"
 #include "tanglebin/calibrate/learn_links_once.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/dataset/versions.hpp"
+#include "tanglebin/files/json_record.hpp"
+#include "tanglebin/files/read_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/geometry/camera.hpp"
-#include "tanglebin/io/json_record.hpp"
-#include "tanglebin/io/read_file.hpp"
-#include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/runs/interrupt_guard.hpp"
 #include "tanglebin/scan/sensor.hpp"
 
@@ -31,9 +31,7 @@ using Seconds = std::chrono::duration<double>;
 class BudgetSpent : public std::exception {};
 
 std::string text_of(const Recipe& recipe) {
-  std::ostringstream text;
-  write_recipe(text, recipe);
-  return std::move(text).str();
+  return bytes_of([&](std::ostream& out) { write_recipe(out, recipe); });
 }
 
 // What the scores in a directory depend on.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <sstream>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/calibrate/scene_scores.hpp"
 #include "tanglebin/experiment/learn_links.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/model/parameters.hpp"
 #include "tanglebin/profile/profile.hpp"
 
@@ -49,10 +49,10 @@ Parameters learn_links_once(const Dataset& dataset, const std::vector<CaseId>& s
                             const std::filesystem::path& file, const WorkersObserver& observer) {
   const auto learn = [&](std::size_t /*task*/) {
     const LinkWeights weights = rounded_where_learned(weights_from(dataset, scenes));
-    std::ostringstream text;
-    write_profile(text, {.parameters = link_parameters(weights), .method = Method::axis},
-                  "Weights of links, learned from the scenes to calibrate on");
-    write_file(file, text.str());
+    write_file(file, bytes_of([&](std::ostream& out) {
+                 write_profile(out, {.parameters = link_parameters(weights), .method = Method::axis},
+                               "Weights of links, learned from the scenes to calibrate on");
+               }));
     return std::string();
   };
   if (!std::filesystem::exists(file) && !run_in_workers(1, 1, learn, observer)) throw CalibrationStopped();

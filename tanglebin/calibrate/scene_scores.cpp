@@ -9,7 +9,7 @@
 #include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/experiment/given_cloud.hpp"
 #include "tanglebin/experiment/run.hpp"
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/files/json_record.hpp"
 #include "tanglebin/model/parameters.hpp"
 
 namespace tanglebin {

@@ -13,23 +13,23 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/checks.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/exit_status.hpp"
-#include "tanglebin/cli/many_cases.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/print.hpp"
-#include "tanglebin/cli/progress_report.hpp"
-#include "tanglebin/cli/shard_option.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/checks.hpp"
+#include "tanglebin/cli/options/many_cases.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/options/shard_option.hpp"
+#include "tanglebin/cli/terminal/exit_status.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
+#include "tanglebin/cli/terminal/progress_report.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -157,12 +157,11 @@ std::optional<Calibration> run(const CalibrateArguments& arguments, const Recipe
 }
 
 void write_result(const CalibrateArguments& arguments, const Calibration& calibration) {
-  std::ostringstream text;
-  write_profile(
-      text, calibration.profile,
+  const std::string title =
       fmt::format("Parameters of the method {}, calibrated by tanglebin {} for {} (docs/calibration.md)",
-                  arguments.method, calibration.profile.made_for->version, arguments.recipe));
-  write_output(arguments.out, text.str());
+                  arguments.method, calibration.profile.made_for->version, arguments.recipe);
+  write_output(arguments.out,
+               bytes_of([&](std::ostream& out) { write_profile(out, calibration.profile, title); }));
 }
 
 nlohmann::ordered_json json_of(const Estimate& estimate) {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/cli/checks.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/exit_status.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/options/checks.hpp"
+#include "tanglebin/cli/terminal/exit_status.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/report/text.hpp"
 
 namespace tanglebin::cli {

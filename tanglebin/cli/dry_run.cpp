@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/dataset/dry_run.hpp"
 #include "tanglebin/io/images.hpp"
-#include "tanglebin/report/picture_of_scan.hpp"
+#include "tanglebin/pictures/picture_of_scan.hpp"
 #include "tanglebin/report/text.hpp"
 #include "tanglebin/scan/scanner.hpp"
 

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "tanglebin/cli/exit_status.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/terminal/exit_status.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/report/text.hpp"
 
 namespace tanglebin::cli {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tanglebin/cli/progress_report.hpp"
+#include "tanglebin/cli/terminal/progress_report.hpp"
 #include "tanglebin/dataset/fill_dataset.hpp"
 
 namespace tanglebin::cli {

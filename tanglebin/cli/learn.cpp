@@ -6,19 +6,19 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/dataset/versions.hpp"
 #include "tanglebin/experiment/learn_confidence.hpp"
 #include "tanglebin/experiment/learn_links.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/model/parameters.hpp"
 #include "tanglebin/profile/profile.hpp"
 
@@ -119,11 +119,11 @@ void learn_for_tubes(const LearnArguments& arguments) {
 }
 
 void write_weights(const LinkWeights& weights, const LearnArguments& arguments) {
-  std::ostringstream profile;
-  write_profile(profile, {.parameters = link_parameters(weights), .method = Method::axis},
-                fmt::format("Weights of links, learned by tanglebin {} from {}", versions().at("tanglebin"),
-                            fmt::join(arguments.datasets, ", ")));
-  write_output(*arguments.out, profile.str());
+  const std::string title = fmt::format("Weights of links, learned by tanglebin {} from {}",
+                                        versions().at("tanglebin"), fmt::join(arguments.datasets, ", "));
+  write_output(*arguments.out, bytes_of([&](std::ostream& out) {
+    write_profile(out, {.parameters = link_parameters(weights), .method = Method::axis}, title);
+  }));
 }
 
 void learn_for_links(const LearnArguments& arguments) {

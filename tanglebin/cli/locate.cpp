@@ -2,16 +2,16 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/print.hpp"
-#include "tanglebin/cli/scene_options.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/options/scene_options.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/scene/locate_support.hpp"
 #include "tanglebin/scene/read_measurement.hpp"
 #include "tanglebin/scene/write_scene.hpp"
@@ -101,9 +101,7 @@ void locate_in_cloud(const LocateArguments& arguments) {
       with_file(arguments.cloud, [&] { return locate_support(measured.scene, measured.cloud); });
   print_notes(found.notes);
   if (arguments.out) {
-    std::ostringstream scene;
-    write_scene(scene, found.scene);
-    write_output(*arguments.out, scene.str());
+    write_output(*arguments.out, bytes_of([&](std::ostream& out) { write_scene(out, found.scene); }));
   }
   if (take_standard_output(outputs(arguments))) return;
   if (arguments.json) {

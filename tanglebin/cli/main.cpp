@@ -18,8 +18,8 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/exit_status.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/terminal/exit_status.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/cli/usage.hpp"
 #include "tanglebin/dataset/versions.hpp"
 

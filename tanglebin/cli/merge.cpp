@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/fill_report.hpp"
-#include "tanglebin/cli/many_cases.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/many_cases.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/dataset/merge_datasets.hpp"
 #include "tanglebin/experiment/results.hpp"
 #include "tanglebin/report/text.hpp"

@@ -4,29 +4,29 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/model_options.hpp"
 #include "tanglebin/cli/model_report.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/print.hpp"
-#include "tanglebin/cli/scene_options.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/model_options.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/options/scene_options.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/pcd.hpp"
 #include "tanglebin/io/ply.hpp"
-#include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/model/axis/axis_method.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
 #include "tanglebin/model/scene/support_frame.hpp"
-#include "tanglebin/report/pictures_of_steps.hpp"
+#include "tanglebin/pictures/pictures_of_steps.hpp"
 #include "tanglebin/scene/locate_support.hpp"
 #include "tanglebin/scene/read_measurement.hpp"
 
@@ -47,13 +47,13 @@ struct ModelArguments {
 };
 
 std::string cloud_bytes(const PointCloud& cloud, const Model& model, const std::string& file) {
-  std::ostringstream out;
-  if (is_pcd(file)) {
-    write_pcd(out, labelled(cloud, model.labels));
-  } else {
-    write_ply(out, labelled(cloud, model.labels), "unit and frame of the input");
-  }
-  return std::move(out).str();
+  return bytes_of([&](std::ostream& out) {
+    if (is_pcd(file)) {
+      write_pcd(out, labelled(cloud, model.labels));
+    } else {
+      write_ply(out, labelled(cloud, model.labels), "unit and frame of the input");
+    }
+  });
 }
 
 void print_summary(const ModelArguments& arguments, const ResolvedScene& scene, const Model& model) {

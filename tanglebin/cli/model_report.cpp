@@ -6,14 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/exit_status.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/base/bytes_of.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/terminal/exit_status.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/mesh.hpp"
 #include "tanglebin/model/tubes_json.hpp"
@@ -30,17 +30,15 @@ bool has_extension(const std::string& file, std::string_view extension) {
 
 std::string tubes_bytes(const Model& model, const std::string& file) {
   if (has_extension(file, ".json")) return tubes_json(model) + '\n';
-  std::ostringstream out;
-  write_configuration(out, model.tubes);
-  return std::move(out).str();
+  return bytes_of([&](std::ostream& out) { write_configuration(out, model.tubes); });
 }
 
 std::string mesh_bytes(const Model& model, const std::string& file) {
   std::vector<TubeMesh> meshes;
   for (const Tube& tube : model.tubes) meshes.push_back(mesh_of(tube));
-  std::ostringstream out;
-  has_extension(file, ".obj") ? write_mesh_obj(out, meshes) : write_mesh_ply(out, meshes);
-  return std::move(out).str();
+  return bytes_of([&](std::ostream& out) {
+    has_extension(file, ".obj") ? write_mesh_obj(out, meshes) : write_mesh_ply(out, meshes);
+  });
 }
 
 // The odds of the join that is least sure; nothing without joins.

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "tanglebin/cli/outputs.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 
 namespace CLI {

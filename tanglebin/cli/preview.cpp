@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "tanglebin/base/constants.hpp"
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/checks.hpp"
-#include "tanglebin/cli/cloud_or_tubes.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/scene_options.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/checks.hpp"
+#include "tanglebin/cli/options/cloud_or_tubes.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/options/scene_options.hpp"
 #include "tanglebin/io/images.hpp"
-#include "tanglebin/report/picture.hpp"
+#include "tanglebin/pictures/picture.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -42,16 +42,11 @@ View view_of(const Options& options) {
           .height = options.height};
 }
 
-Support support_of(const Options& options) {
-  const Scene scene = options.scene ? scene_named(*options.scene, options.input) : Scene{};
-  return scene.support.value_or(Support{.shape = Support::Shape::nothing});
-}
-
 Picture draw(const CloudOrTubes& input, const Options& options) {
   if (const auto* cloud = std::get_if<PointCloud>(&input))
     return picture_of_cloud(*cloud, view_of(options), options.input);
-  return picture_of_tubes(std::get<std::vector<Tube>>(input), support_of(options), view_of(options),
-                          options.input);
+  return picture_of_tubes(std::get<std::vector<Tube>>(input), support_in(options.scene, options.input),
+                          view_of(options), options.input);
 }
 
 void run(const Options& options) {

@@ -2,9 +2,9 @@
 #include <memory>
 #include <string>
 
-#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/outputs.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
 #include "tanglebin/report/page.hpp"
 #include "tanglebin/report/results.hpp"
 

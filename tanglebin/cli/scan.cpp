@@ -5,17 +5,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/print.hpp"
-#include "tanglebin/cli/scene_options.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/options/scene_options.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/geometry/bin.hpp"
 #include "tanglebin/geometry/view_of_bin.hpp"
@@ -23,8 +23,8 @@
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/pcd.hpp"
 #include "tanglebin/io/ply.hpp"
+#include "tanglebin/pictures/picture_of_scan.hpp"
 #include "tanglebin/recipe/recipe.hpp"
-#include "tanglebin/report/picture_of_scan.hpp"
 #include "tanglebin/report/text.hpp"
 #include "tanglebin/scan/scan_output.hpp"
 #include "tanglebin/scan/scanner.hpp"
@@ -69,13 +69,13 @@ void warn_of_no_tube(const Camera& camera, const std::vector<Tube>& tubes) {
 // PLY, or an organized PCD.
 std::string cloud_bytes(const ScanArguments& arguments, const Scan& view, int tubes) {
   const CloudOf what = arguments.with_bin ? CloudOf::tubes_and_bin : CloudOf::tubes;
-  std::ostringstream out;
-  if (is_pcd(arguments.out)) {
-    write_pcd(out, organized_cloud_from_scan(view, what, tubes, arguments.properties));
-  } else {
-    write_ply(out, cloud_from_scan(view, what, tubes, arguments.properties));
-  }
-  return std::move(out).str();
+  return bytes_of([&](std::ostream& out) {
+    if (is_pcd(arguments.out)) {
+      write_pcd(out, organized_cloud_from_scan(view, what, tubes, arguments.properties));
+    } else {
+      write_ply(out, cloud_from_scan(view, what, tubes, arguments.properties));
+    }
+  });
 }
 
 void print_summary(const ScanArguments& arguments, const Scan& view, const std::vector<Tube>& tubes) {

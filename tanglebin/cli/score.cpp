@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
 #include "tanglebin/cli/score_dataset.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/experiment/measures.hpp"
 #include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/io/read_cloud.hpp"

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/exit_status.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/terminal/exit_status.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/experiment/measures.hpp"
 #include "tanglebin/experiment/score_dataset.hpp"
 #include "tanglebin/recipe/case_json.hpp"

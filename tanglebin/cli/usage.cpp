@@ -10,7 +10,7 @@
 
 #include "tanglebin/base/suggestion.hpp"
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/cli/print.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
 
 namespace tanglebin::cli {
 namespace {

@@ -7,12 +7,12 @@
 #include <string>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/exit_status.hpp"
-#include "tanglebin/cli/many_cases.hpp"
-#include "tanglebin/cli/print.hpp"
-#include "tanglebin/cli/progress_report.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/many_cases.hpp"
+#include "tanglebin/cli/terminal/exit_status.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
+#include "tanglebin/cli/terminal/progress_report.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/repair_dataset.hpp"
 #include "tanglebin/dataset/verify_dataset.hpp"

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/cli/arguments.hpp"
-#include "tanglebin/cli/cloud_or_tubes.hpp"
 #include "tanglebin/cli/commands.hpp"
-#include "tanglebin/cli/outputs.hpp"
-#include "tanglebin/cli/scene_options.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/options/cloud_or_tubes.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/options/scene_options.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/io/read_cloud.hpp"
 #include "tanglebin/io/read_tubes.hpp"
@@ -54,18 +54,13 @@ ViewedScene scene_of(const DatasetCase& named) {
   return scene;
 }
 
-Support support_of(const ViewArguments& arguments) {
-  const Scene scene = arguments.scene ? scene_named(*arguments.scene, arguments.input) : Scene{};
-  return scene.support.value_or(Support{.shape = Support::Shape::nothing});
-}
-
 // A cloud, whose labels are the truth if there are others to compare with, or tubes.
 ViewedScene scene_of_file(const ViewArguments& arguments) {
   ViewedScene scene{.name = std::filesystem::path(arguments.input).filename().string(),
                     .cloud = {},
                     .truth = {},
                     .found = {},
-                    .support = support_of(arguments)};
+                    .support = support_in(arguments.scene, arguments.input)};
   CloudOrTubes input = read_cloud_or_tubes(arguments.input);
   if (auto* tubes = std::get_if<std::vector<Tube>>(&input)) {
     scene.found.push_back({.name = "tubes", .labels = {}, .tubes = std::move(*tubes)});

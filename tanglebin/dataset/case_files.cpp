@@ -1,9 +1,9 @@
 #include "tanglebin/dataset/case_files.hpp"
 
-#include <sstream>
 #include <string_view>
 #include <utility>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/dataset/scene_facts.hpp"
 #include "tanglebin/io/configuration.hpp"
@@ -15,13 +15,6 @@
 
 namespace tanglebin {
 namespace {
-
-template <typename Write>
-std::string bytes_of(const Write& write) {
-  std::ostringstream out;
-  write(out);
-  return std::move(out).str();
-}
 
 CloudOf points_of(const Recipe& recipe) {
   return recipe.output.bin_points ? CloudOf::tubes_and_bin : CloudOf::tubes;

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/io/json_record.hpp"
-#include "tanglebin/io/read_file.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/json_record.hpp"
+#include "tanglebin/files/read_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/recipe/case_json.hpp"
 #include "tanglebin/runs/journal.hpp"
 

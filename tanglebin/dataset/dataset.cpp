@@ -10,10 +10,10 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/files/read_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/ply.hpp"
-#include "tanglebin/io/read_file.hpp"
-#include "tanglebin/io/safe_file.hpp"
 
 namespace tanglebin {
 namespace {

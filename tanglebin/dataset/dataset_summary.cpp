@@ -1,7 +1,7 @@
 #include "tanglebin/dataset/dataset_summary.hpp"
 
-#include "tanglebin/io/json_record.hpp"
-#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/files/json_record.hpp"
+#include "tanglebin/files/read_file.hpp"
 
 namespace tanglebin {
 namespace {

@@ -38,7 +38,7 @@ Effort interpolated(const Efforts& efforts, int tubes) {
   return between(below->second, above->second, share);
 }
 
-double bytes_of(const std::vector<CaseFile>& files) {
+double size_of(const std::vector<CaseFile>& files) {
   double bytes = 0;
   for (const CaseFile& file : files) bytes += static_cast<double>(file.bytes.size());
   return bytes;
@@ -98,7 +98,7 @@ private:
     Recipe resolved = resolve(recipe_, id, draw(recipe_, id));
     for (const std::string& doubt : doubts(of_case_alone(resolved, id))) warn(doubt);
     SimulatedScene scene = simulate(resolved, id);
-    const double bytes = bytes_of(case_files(resolved, id, scene));
+    const double bytes = size_of(case_files(resolved, id, scene));
     look(scene.scan, resolved.scanner_name, id);
     for (std::size_t i = 0; i < scene.further_scans.size(); ++i)
       look(scene.further_scans[i], resolved.further_scanners[i].name, id);

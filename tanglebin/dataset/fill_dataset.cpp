@@ -3,14 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/random.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/sha256.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/runs/file_lock.hpp"
 #include "tanglebin/runs/journal.hpp"
 #include "tanglebin/runs/workers.hpp"
@@ -21,9 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string text_of(const Recipe& recipe) {
-  std::ostringstream out;
-  write_recipe(out, recipe);
-  return out.str();
+  return bytes_of([&](std::ostream& out) { write_recipe(out, recipe); });
 }
 
 // Other shards may begin at the same time: of theirs, journals may be here before the recipe. So the recipe

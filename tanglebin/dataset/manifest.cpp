@@ -5,7 +5,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/files/json_record.hpp"
 #include "tanglebin/recipe/case_json.hpp"
 
 namespace tanglebin {

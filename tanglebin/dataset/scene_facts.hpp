@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/files/json_record.hpp"
 #include "tanglebin/scan/occlusion.hpp"
 #include "tanglebin/settle/contacts.hpp"
 

@@ -15,7 +15,7 @@
 #include <string>
 
 #include "tanglebin/dataset/sha256.hpp"
-#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/files/read_file.hpp"
 
 namespace tanglebin {
 namespace {

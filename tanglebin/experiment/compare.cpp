@@ -9,7 +9,7 @@
 #include "tanglebin/base/estimate.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/experiment/results.hpp"
-#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/files/read_file.hpp"
 
 namespace tanglebin {
 namespace {

@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <sstream>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/ply.hpp"
-#include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/model/tubes_json.hpp"
 
 namespace tanglebin {
@@ -23,11 +23,9 @@ std::vector<fs::path> files_of(const RunId& run) {
 }
 
 void keep_model(const fs::path& directory, const RunId& run, const PointCloud& cloud, const Model& model) {
-  std::ostringstream points;
-  write_ply(points, labelled(cloud, model.labels));
-  std::ostringstream tubes;
-  write_configuration(tubes, model.tubes);
-  const std::vector<std::string> contents = {points.str(), tubes.str(), tubes_json(model) + '\n'};
+  const std::vector<std::string> contents = {
+      bytes_of([&](std::ostream& out) { write_ply(out, labelled(cloud, model.labels)); }),
+      bytes_of([&](std::ostream& out) { write_configuration(out, model.tubes); }), tubes_json(model) + '\n'};
   const std::vector<fs::path> files = files_of(run);
   for (std::size_t i = 0; i < files.size(); ++i) {
     make_directories((directory / files[i]).parent_path());

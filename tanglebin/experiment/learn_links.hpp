@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tanglebin/dataset/seen_case.hpp"
-#include "tanglebin/model/axis/links.hpp"
+#include "tanglebin/model/axis/links/links.hpp"
 
 namespace tanglebin {
 

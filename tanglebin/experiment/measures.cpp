@@ -1,14 +1,6 @@
 #include "tanglebin/experiment/measures.hpp"
 
 namespace tanglebin {
-namespace {
-
-Json number_or_null(const auto& number) {
-  return number ? Json(*number) : Json();
-}
-
-}  // namespace
-
 Json measures_json(const Score& score) {
   return {{"micro_recall", score.micro_recall},
           {"points", score.points},

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/files/json_record.hpp"
 #include "tanglebin/score/score.hpp"
 #include "tanglebin/score/score_tubes.hpp"
 

@@ -13,8 +13,8 @@
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/experiment/given_cloud.hpp"
 #include "tanglebin/experiment/run_command.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/configuration.hpp"
-#include "tanglebin/io/read_file.hpp"
 #include "tanglebin/model/scene/label.hpp"
 
 namespace tanglebin {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/dataset/dataset_summary.hpp"
@@ -17,8 +18,8 @@
 #include "tanglebin/dataset/versions.hpp"
 #include "tanglebin/experiment/measures.hpp"
 #include "tanglebin/experiment/tables.hpp"
-#include "tanglebin/io/read_file.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/read_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/model/parameters.hpp"
 #include "tanglebin/recipe/case_json.hpp"
 #include "tanglebin/recipe/recipe.hpp"
@@ -71,15 +72,13 @@ Json result_head(const RunId& run, const CaseRecord& scene) {
 
 // What the methods are told, as a scene file has it; empty if it is what the recipe says.
 std::string scene_text(const Scene& scene) {
-  std::ostringstream text;
-  write_scene(text, scene);
-  return std::move(text).str();
+  return bytes_of([&](std::ostream& out) { write_scene(out, scene); });
 }
 
 Json limits_json(const ProcessLimits& limits) {
   Json json;
   json["time_limit"] = std::chrono::duration<double>(limits.time).count();
-  json["memory_limit"] = limits.memory ? Json(*limits.memory) : Json();
+  json["memory_limit"] = number_or_null(limits.memory);
   return json;
 }
 

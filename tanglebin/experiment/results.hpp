@@ -11,7 +11,7 @@
 #include "tanglebin/experiment/modelled.hpp"
 #include "tanglebin/experiment/run.hpp"
 #include "tanglebin/experiment/run_failure.hpp"
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/files/json_record.hpp"
 #include "tanglebin/runs/line_reader.hpp"
 
 namespace tanglebin {

@@ -15,11 +15,11 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/experiment/given_cloud.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/labels.hpp"
 #include "tanglebin/io/pcd.hpp"
 #include "tanglebin/io/ply.hpp"
-#include "tanglebin/io/safe_file.hpp"
 #include "tanglebin/scene/write_scene.hpp"
 
 namespace tanglebin {

@@ -9,7 +9,7 @@
 #include "tanglebin/dataset/verify_case.hpp"
 #include "tanglebin/experiment/kept_models.hpp"
 #include "tanglebin/experiment/results.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/runs/journal.hpp"
 #include "tanglebin/runs/workers.hpp"
 

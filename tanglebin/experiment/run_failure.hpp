@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/files/json_record.hpp"
 
 // Internal to the library: why a run has no score, in lines of results.jsonl.
 namespace tanglebin {

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "tanglebin/io/json_record.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/json_record.hpp"
+#include "tanglebin/files/safe_file.hpp"
 
 namespace tanglebin {
 

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/cloud/images.hpp"
 #include "tanglebin/export/format.hpp"
 #include "tanglebin/export/mask.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/mesh.hpp"
-#include "tanglebin/io/read_file.hpp"
 #include "tanglebin/scan/scan_output.hpp"
 
 namespace tanglebin {
@@ -63,9 +63,7 @@ std::string model_ply(const Tube& tube) {
   const Eigen::Vector3d origin = origin_of(tube);
   for (Eigen::Vector3f& vertex : mesh.vertices)
     vertex = ((vertex.cast<double>() - origin) / millimetre).cast<float>();
-  std::ostringstream out;
-  write_mesh_ply(out, {mesh}, "millimetres, the object's frame");
-  return std::move(out).str();
+  return bytes_of([&](std::ostream& out) { write_mesh_ply(out, {mesh}, "millimetres, the object's frame"); });
 }
 
 Json rows_of(const Eigen::Matrix3d& matrix) {

@@ -6,8 +6,8 @@
 
 #include "tanglebin/export/format.hpp"
 #include "tanglebin/export/mask.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/images.hpp"
-#include "tanglebin/io/read_file.hpp"
 #include "tanglebin/scan/scan_output.hpp"
 
 namespace tanglebin {

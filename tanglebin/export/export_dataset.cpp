@@ -13,8 +13,8 @@
 #include "tanglebin/dataset/dataset_summary.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/export/format.hpp"
-#include "tanglebin/io/read_file.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/read_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/runs/file_lock.hpp"
 #include "tanglebin/runs/journal.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 
 namespace tanglebin {
 

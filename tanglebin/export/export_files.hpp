@@ -10,7 +10,7 @@
 
 namespace tanglebin {
 
-/// Writes the files of an export. All functions throw as write_file() does (io/safe_file.hpp).
+/// Writes the files of an export. All functions throw as write_file() does (files/safe_file.hpp).
 class ExportFiles {
 public:
   /// Unfinished files go to `staging`, which must be on the same disk.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tanglebin/dataset/dataset.hpp"
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/files/json_record.hpp"
 #include "tanglebin/scan/occlusion.hpp"
 #include "tanglebin/scan/scan.hpp"
 #include "tanglebin/settle/contacts.hpp"

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include <sstream>
-
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/export/archive.hpp"
 #include "tanglebin/export/format.hpp"
 #include "tanglebin/export/mask.hpp"
@@ -18,13 +17,6 @@ constexpr std::size_t cases_per_tar = 50;
 
 std::string tar_of(const ExportUnit& unit) {
   return fmt::format("{:06}.tar", unit.number - 1);
-}
-
-template <typename Write>
-std::string bytes_of(const Write& write) {
-  std::ostringstream out;
-  write(out);
-  return std::move(out).str();
 }
 
 Json sample_json(const ExportScene& scene, const SceneView& view) {

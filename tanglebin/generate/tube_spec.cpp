@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "tanglebin/base/error.hpp"
+#include "tanglebin/base/expect.hpp"
 #include "tanglebin/generate/bar.hpp"
 #include "tanglebin/generate/generate.hpp"
 #include "tanglebin/geometry/mass_properties.hpp"
@@ -16,10 +16,6 @@ namespace {
 
 // More than any tube needs, few enough that a mistyped number does not fill the memory.
 constexpr int most_cylinders = 1000;
-
-void expect(bool holds, const std::string& field, const std::string& found, const std::string& expected) {
-  if (!holds) throw InputError({"", 0, field}, found, expected);
-}
 
 void expect_positive(double value, const std::string& field) {
   expect(std::isfinite(value) && value > 0, field, fmt::format("{}", value), "a positive number");

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/expect.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/geometry/rigid.hpp"
 
@@ -16,17 +17,13 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-void require(bool valid, const char* field, const std::string& found, const char* expected) {
-  if (!valid) throw InputError({.file = "", .line = 0, .field = field}, found, expected);
-}
-
 void require_pixels(int count, const char* field) {
-  require(count > 0, field, std::to_string(count), "a positive number of pixels");
+  expect(count > 0, field, std::to_string(count), "a positive number of pixels");
 }
 
 void require_focal_length(double pixels, const char* field) {
-  require(std::isfinite(pixels) && pixels > 0, field, std::to_string(pixels),
-          "a finite positive number of pixels");
+  expect(std::isfinite(pixels) && pixels > 0, field, std::to_string(pixels),
+         "a finite positive number of pixels");
 }
 
 /// Moved about the world's y axis, towards +x.
@@ -37,7 +34,7 @@ Camera tilted(Camera camera, double degrees) {
 }
 
 void require_coordinate(double pixels, const char* field) {
-  require(std::isfinite(pixels), field, std::to_string(pixels), "a finite number of pixels");
+  expect(std::isfinite(pixels), field, std::to_string(pixels), "a finite number of pixels");
 }
 
 }  // namespace
@@ -113,17 +110,17 @@ void validate(const Camera& camera) {
   require_pixels(camera.width, "scanner.width");
   require_pixels(camera.height, "scanner.height");
   constexpr std::int64_t most_pixels = std::int64_t{1} << 26;
-  require(std::int64_t{camera.width} * camera.height <= most_pixels, "scanner.width",
-          std::to_string(camera.width) + " x " + std::to_string(camera.height) + " pixels",
-          "an image of at most 67108864 pixels (8192 x 8192)");
+  expect(std::int64_t{camera.width} * camera.height <= most_pixels, "scanner.width",
+         std::to_string(camera.width) + " x " + std::to_string(camera.height) + " pixels",
+         "an image of at most 67108864 pixels (8192 x 8192)");
   require_focal_length(camera.fx, "scanner.fx");
   require_focal_length(camera.fy, "scanner.fy");
   require_coordinate(camera.cx, "scanner.cx");
   require_coordinate(camera.cy, "scanner.cy");
-  require(camera.pose.translation().allFinite(), "scanner.pose", "a position that is not finite",
-          "finite coordinates");
-  require(is_rigid(camera.pose), "scanner.pose", "an orientation that is not a rotation",
-          "a right-handed orthonormal frame");
+  expect(camera.pose.translation().allFinite(), "scanner.pose", "a position that is not finite",
+         "finite coordinates");
+  expect(is_rigid(camera.pose), "scanner.pose", "an orientation that is not a rotation",
+         "a right-handed orthonormal frame");
 }
 
 }  // namespace tanglebin

@@ -12,10 +12,10 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/cloud_input.hpp"
 #include "tanglebin/io/grey_png.hpp"
 #include "tanglebin/io/npy.hpp"
-#include "tanglebin/io/read_file.hpp"
 
 namespace tanglebin {
 namespace {

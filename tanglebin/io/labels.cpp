@@ -9,10 +9,10 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/io/npy.hpp"
 #include "tanglebin/io/read_cloud.hpp"
-#include "tanglebin/io/read_file.hpp"
 
 namespace tanglebin {
 namespace {

@@ -13,9 +13,9 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/files/json_record.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/configuration.hpp"
-#include "tanglebin/io/json_record.hpp"
-#include "tanglebin/io/read_file.hpp"
 
 namespace tanglebin {
 namespace {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <tuple>
 
+#include "tanglebin/files/toml_fields.hpp"
 #include "tanglebin/geometry/camera.hpp"
-#include "tanglebin/io/toml_fields.hpp"
 
 // Internal to the library: cameras in recipes and in scene files (docs/formats.md). The functions read only
 // the keys that a table has; what it may have is its reader's business.

@@ -37,7 +37,7 @@ std::string header(std::string_view type, const NpyShape& shape) {
 }
 
 template <typename Value>
-std::string bytes_of(std::string_view type, const std::vector<Value>& values, const NpyShape& shape) {
+std::string array_bytes(std::string_view type, const std::vector<Value>& values, const NpyShape& shape) {
   const std::size_t expected =
       std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
   if (values.size() != expected)
@@ -51,19 +51,19 @@ std::string bytes_of(std::string_view type, const std::vector<Value>& values, co
 }  // namespace
 
 std::string npy_bytes(const std::vector<float>& values, const NpyShape& shape) {
-  return bytes_of("<f4", values, shape);
+  return array_bytes("<f4", values, shape);
 }
 
 std::string npy_bytes(const std::vector<double>& values, const NpyShape& shape) {
-  return bytes_of("<f8", values, shape);
+  return array_bytes("<f8", values, shape);
 }
 
 std::string npy_bytes(const std::vector<std::int32_t>& values, const NpyShape& shape) {
-  return bytes_of("<i4", values, shape);
+  return array_bytes("<i4", values, shape);
 }
 
 std::string npy_bytes(const std::vector<std::uint32_t>& values, const NpyShape& shape) {
-  return bytes_of("<u4", values, shape);
+  return array_bytes("<u4", values, shape);
 }
 
 }  // namespace tanglebin

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
-#include "tanglebin/model/axis/axis_settings.hpp"
+#include "tanglebin/model/axis/settings/axis_settings.hpp"
 #include "tanglebin/model/paper/paper_settings.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"
 #include "tanglebin/model/scene/model.hpp"

@@ -11,8 +11,8 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/io/read_file.hpp"
-#include "tanglebin/io/toml_table.hpp"
+#include "tanglebin/files/read_file.hpp"
+#include "tanglebin/files/toml_table.hpp"
 #include "tanglebin/model/parameters.hpp"
 
 namespace tanglebin {

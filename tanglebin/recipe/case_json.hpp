@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/files/json_record.hpp"
 #include "tanglebin/recipe/case_id.hpp"
 
 // Internal to the library: how the JSON lines of datasets and results name their case.

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tanglebin/io/toml_table.hpp"
+#include "tanglebin/files/toml_table.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 
 // Internal to the room: random numbers in TOML trees. Drawing replaces them, so the reader of recipes knows

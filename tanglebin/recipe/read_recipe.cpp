@@ -12,7 +12,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/recipe/randomization.hpp"
 #include "tanglebin/recipe/recipe_tree.hpp"
 

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <tuple>
 
+#include "tanglebin/files/toml_fields.hpp"
 #include "tanglebin/io/toml_camera.hpp"
-#include "tanglebin/io/toml_fields.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 
 // Internal to the room: the keys of a recipe and the members that they set. To read and write a new setting,

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "tanglebin/io/toml_table.hpp"
+#include "tanglebin/files/toml_table.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 
 // Internal to the room: recipes and TOML trees.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/expect.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/geometry/view_of_bin.hpp"
 #include "tanglebin/recipe/case_id.hpp"
@@ -24,10 +25,6 @@ constexpr std::size_t longest_name = 64;
 constexpr int most_tubes = 1000;                // in a case
 constexpr double most_weight = 1e6;             // of a kind of tubes
 constexpr std::int64_t most_cases = 1'000'000;  // in a recipe
-
-void expect(bool holds, const std::string& field, const std::string& found, const std::string& expected) {
-  if (!holds) throw InputError({"", 0, field}, found, expected);
-}
 
 // A set's path in TOML: set[0].
 std::string place(std::size_t set) {

@@ -5,7 +5,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/experiment/summary.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 
 namespace tanglebin {
 

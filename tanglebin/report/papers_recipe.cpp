@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 #include "tanglebin/report/embedded.hpp"
@@ -17,9 +18,7 @@ std::string sha256_with_seed(std::string_view toml, std::uint64_t seed) {
   std::istringstream in{std::string(toml)};
   Recipe recipe = read_recipe(in, "the paper's recipe");
   recipe.seed = seed;
-  std::ostringstream out;
-  write_recipe(out, recipe);
-  return sha256(out.str());
+  return sha256(bytes_of([&](std::ostream& out) { write_recipe(out, recipe); }));
 }
 
 }  // namespace

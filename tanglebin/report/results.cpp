@@ -11,8 +11,8 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/experiment/run_failure.hpp"
-#include "tanglebin/io/json_record.hpp"
-#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/files/json_record.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/recipe/case_json.hpp"
 #include "tanglebin/report/papers_recipe.hpp"
 

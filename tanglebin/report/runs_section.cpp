@@ -6,7 +6,7 @@
 #include <optional>
 #include <tuple>
 
-#include "tanglebin/io/json_record.hpp"
+#include "tanglebin/files/json_record.hpp"
 #include "tanglebin/report/html.hpp"
 #include "tanglebin/report/script.hpp"
 #include "tanglebin/report/sections.hpp"
@@ -14,10 +14,6 @@
 
 namespace tanglebin {
 namespace {
-
-Json number_or_null(const std::optional<double>& number) {
-  return number ? Json(*number) : Json();
-}
 
 auto key_of(const RunKey& run) {
   return std::tuple(run.id.set, run.id.tubes, run.id.number, run.scanner, run.method, run.ratio);

@@ -12,15 +12,15 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/picked.hpp"
+#include "tanglebin/files/json_record.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/io/images.hpp"
-#include "tanglebin/io/json_record.hpp"
 #include "tanglebin/model/scene/filter.hpp"
+#include "tanglebin/pictures/palette.hpp"
+#include "tanglebin/pictures/picture.hpp"
 #include "tanglebin/report/document.hpp"
 #include "tanglebin/report/embedded.hpp"
 #include "tanglebin/report/html.hpp"
-#include "tanglebin/report/palette.hpp"
-#include "tanglebin/report/picture.hpp"
 #include "tanglebin/report/script.hpp"
 #include "tanglebin/score/shown_labels.hpp"
 

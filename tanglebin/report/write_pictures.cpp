@@ -7,13 +7,13 @@
 #include <string>
 
 #include "tanglebin/experiment/summary.hpp"
+#include "tanglebin/files/json_record.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/io/images.hpp"
-#include "tanglebin/io/json_record.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/pictures/picture.hpp"
 #include "tanglebin/recipe/case_json.hpp"
 #include "tanglebin/report/model_again.hpp"
-#include "tanglebin/report/picture.hpp"
 
 namespace tanglebin {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "tanglebin/base/picked.hpp"
-#include "tanglebin/io/json_record.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/json_record.hpp"
+#include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/report/model_again.hpp"
 #include "tanglebin/report/scene_view.hpp"
 #include "tanglebin/report/text.hpp"

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 
 namespace tanglebin {
 namespace {

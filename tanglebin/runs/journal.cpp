@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/io/read_file.hpp"
-#include "tanglebin/io/safe_file.hpp"
+#include "tanglebin/files/read_file.hpp"
+#include "tanglebin/files/safe_file.hpp"
 
 namespace tanglebin {
 namespace {

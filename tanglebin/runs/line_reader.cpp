@@ -1,7 +1,7 @@
 #include "tanglebin/runs/line_reader.hpp"
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/files/read_file.hpp"
 
 namespace tanglebin {
 

@@ -10,9 +10,9 @@
 #include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/files/json_record.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/geometry/rigid.hpp"
-#include "tanglebin/io/json_record.hpp"
-#include "tanglebin/io/read_file.hpp"
 #include "tanglebin/scene/camera_info.hpp"
 
 namespace tanglebin {

@@ -12,7 +12,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/io/read_file.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/toml_camera.hpp"
 #include "tanglebin/scene/camera_file.hpp"
 

@@ -9,14 +9,11 @@
 #include <string_view>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/expect.hpp"
 #include "tanglebin/base/millimetres.hpp"
 
 namespace tanglebin {
 namespace {
-
-void expect(bool holds, const std::string& field, const std::string& found, const std::string& expected) {
-  if (!holds) throw InputError({"", 0, field}, found, expected);
-}
 
 // Calls `check` with the names of a scene file's tables in its errors.
 void check_under(std::string_view table, const std::function<void()>& check) {

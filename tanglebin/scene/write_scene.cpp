@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tanglebin/io/toml_table.hpp"
+#include "tanglebin/files/toml_table.hpp"
 
 namespace tanglebin {
 namespace {

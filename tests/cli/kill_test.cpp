@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "tanglebin/cli/exit_status.hpp"
+#include "tanglebin/cli/terminal/exit_status.hpp"
 #include "tests/support/processes.hpp"
 #include "tests/support/program.hpp"
 

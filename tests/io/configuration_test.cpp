@@ -448,5 +448,11 @@ TEST(Configuration, KeepsItsMessagesOnOneShortLine) {
       "number from 0 to 2147483647");
 }
 
+TEST(Configuration, OfAnEndlessLineIsAnError) {
+  std::ifstream zeros("/dev/zero", std::ios::binary);
+  EXPECT_THAT(test::complaint([&] { read_configuration(zeros, "zeros"); }),
+              HasSubstr("zeros:1: line longer than 65535 bytes"));
+}
+
 }  // namespace
 }  // namespace tanglebin

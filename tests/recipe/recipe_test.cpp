@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
-#include "tanglebin/io/toml_table.hpp"
+#include "tanglebin/files/toml_table.hpp"
 #include "tanglebin/recipe/case_id.hpp"
 #include "tests/recipe/recipes.hpp"
 

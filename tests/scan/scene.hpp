@@ -10,6 +10,7 @@
 #include "tanglebin/geometry/bin.hpp"
 #include "tanglebin/geometry/camera.hpp"
 #include "tanglebin/geometry/tube.hpp"
+#include "tests/geometry/example_tubes.hpp"
 
 namespace tanglebin::test {
 
@@ -38,11 +39,9 @@ inline Bin wide_bin() {
 
 /// A tube through these points.
 inline Tube chain(int id, double radius, const std::vector<Vector3d>& points) {
-  Tube tube{.id = id, .radius = radius, .mass = 0.5, .nodes = {}, .edges = {}};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    tube.nodes.push_back({static_cast<int>(i) + 1, points[i]});
-    if (i > 0) tube.edges.push_back({i - 1, i, static_cast<int>(i)});
-  }
+  Tube tube = tube_through(points);
+  tube.id = id;
+  tube.radius = radius;
   return tube;
 }
 

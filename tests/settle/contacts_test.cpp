@@ -7,6 +7,7 @@
 
 #include "tanglebin/geometry/bin_parts.hpp"
 #include "tanglebin/geometry/labels.hpp"
+#include "tests/geometry/example_tubes.hpp"
 
 namespace tanglebin {
 namespace {
@@ -16,13 +17,8 @@ using testing::IsEmpty;
 constexpr double half_thickness = 0.0125;
 
 Tube tube_through(int id, const std::vector<Eigen::Vector3d>& points) {
-  Tube tube;
+  Tube tube = test::tube_through(points);
   tube.id = id;
-  tube.radius = half_thickness;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    tube.nodes.push_back({static_cast<int>(i + 1), points[i]});
-    if (i > 0) tube.edges.push_back({i - 1, i, static_cast<int>(i)});
-  }
   return tube;
 }
 

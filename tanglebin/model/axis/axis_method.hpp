@@ -5,10 +5,10 @@
 #include <functional>
 #include <vector>
 
-#include "tanglebin/model/axis/axis_settings.hpp"
-#include "tanglebin/model/axis/axis_votes.hpp"
-#include "tanglebin/model/axis/fragments.hpp"
-#include "tanglebin/model/axis/links.hpp"
+#include "tanglebin/model/axis/fragments/axis_votes.hpp"
+#include "tanglebin/model/axis/fragments/fragments.hpp"
+#include "tanglebin/model/axis/links/links.hpp"
+#include "tanglebin/model/axis/settings/axis_settings.hpp"
 #include "tanglebin/model/axis/tube_fit.hpp"
 #include "tanglebin/model/scene/filter.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"

@@ -16,7 +16,7 @@
 #include "tanglebin/base/median.hpp"
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/model/axis/cylinder_fit.hpp"
-#include "tanglebin/model/axis/voxel.hpp"
+#include "tanglebin/model/axis/fragments/voxel.hpp"
 #include "tanglebin/model/scene/filter.hpp"
 #include "tanglebin/model/scene/support_frame.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "tanglebin/base/constants.hpp"
 #include "tanglebin/geometry/capsule.hpp"
-#include "tanglebin/model/axis/assemble.hpp"
-#include "tanglebin/model/axis/line_tree.hpp"
+#include "tanglebin/model/axis/links/assemble.hpp"
+#include "tanglebin/model/axis/links/line_tree.hpp"
 
 namespace tanglebin {
 namespace {

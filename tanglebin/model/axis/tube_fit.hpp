@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "tanglebin/geometry/tube.hpp"
-#include "tanglebin/model/axis/axis_settings.hpp"
-#include "tanglebin/model/axis/fragments.hpp"
-#include "tanglebin/model/axis/links.hpp"
+#include "tanglebin/model/axis/fragments/fragments.hpp"
+#include "tanglebin/model/axis/links/links.hpp"
+#include "tanglebin/model/axis/settings/axis_settings.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"
 
 namespace tanglebin {

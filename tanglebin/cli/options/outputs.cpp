@@ -1,0 +1,53 @@
+#include "tanglebin/cli/options/outputs.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/base/text.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+
+namespace tanglebin::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string extension_of(const std::string& file) {
+  std::string extension = fs::path(file).extension().string();
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  std::ranges::transform(extension, extension.begin(), lower);
+  return extension;
+}
+
+bool is_device_or_pipe(const std::string& file) {
+  std::error_code error;
+  return fs::is_other(fs::status(file, error));
+}
+
+}  // namespace
+
+void expect_outputs(const std::vector<Output>& outputs) {
+  std::set<std::string> files;
+  for (const auto& [option, file, extensions] : outputs) {
+    if (!files.insert(file).second)
+      throw InputError({"", 0, option}, excerpt(file) + " twice", "different files");
+    if (file == standard_stream || is_device_or_pipe(file)) continue;
+    if (std::ranges::find(extensions, extension_of(file)) == extensions.end())
+      throw InputError({"", 0, option}, excerpt(file),
+                       fmt::format("a name that ends in {}", fmt::join(extensions, " or ")));
+  }
+}
+
+bool take_standard_output(const std::vector<Output>& outputs) {
+  return std::ranges::find(outputs, standard_stream, &Output::file) != outputs.end();
+}
+
+bool is_pcd(const std::string& file) {
+  return extension_of(file) == ".pcd";
+}
+
+}  // namespace tanglebin::cli

@@ -1,0 +1,278 @@
+#include "tanglebin/cli/options/scene_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <system_error>
+#include <utility>
+
+#include "tanglebin/base/error.hpp"
+#include "tanglebin/base/text.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/cli/terminal/print.hpp"
+#include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/experiment/run.hpp"
+#include "tanglebin/files/read_file.hpp"
+#include "tanglebin/files/toml_table.hpp"
+#include "tanglebin/io/images.hpp"
+#include "tanglebin/report/text.hpp"
+#include "tanglebin/scene/camera_file.hpp"
+#include "tanglebin/scene/read_scene.hpp"
+
+namespace tanglebin::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A case of a dataset, and which of its scanners.
+struct CaseName {
+  std::string name;     ///< "A10/1"
+  std::string scanner;  ///< empty: the first
+};
+
+bool is_dataset(const fs::path& directory) {
+  std::error_code ignored;
+  return fs::exists(directory / recipe_name, ignored);
+}
+
+// The case that a file of a dataset is of: "A10/plys/1.ply", or "A10/left/plys/1.ply" of a scanner with a
+// name.
+std::optional<CaseName> case_of_file(const fs::path& dataset, const std::string& file) {
+  std::error_code error;
+  const fs::path relative = fs::relative(file, dataset, error);
+  const std::vector<fs::path> parts(relative.begin(), relative.end());
+  const bool has_scanner = parts.size() == 4;
+  if (error || (parts.size() != 3 && !has_scanner) || parts.front() == "..") return std::nullopt;
+  return CaseName{parts.front().string() + "/" + relative.stem().string(),
+                  has_scanner ? parts[1].string() : ""};
+}
+
+CaseId case_named(const Dataset& dataset, const std::string& name) {
+  const std::vector<CaseId> there = cases(dataset);
+  const auto found = std::ranges::find(there, name, [](const CaseId& id) { return name_of(id); });
+  if (found == there.end())
+    throw InputError({dataset.directory.string(), 0, ""}, excerpt(name),
+                     "a case of the dataset, such as A10/1");
+  return *found;
+}
+
+fs::path without_slash(const std::string& name) {
+  return fs::path(name).has_filename() ? fs::path(name) : fs::path(name).parent_path();
+}
+
+/// A dataset's directory and the name of a case.
+struct CasePath {
+  fs::path dataset;
+  std::string name;
+};
+
+// Of a path like DATASET/A10/1, which is no file.
+std::optional<CasePath> case_path(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::exists(path, ignored) || !path.parent_path().has_filename()) return std::nullopt;
+  fs::path dataset = path.parent_path().parent_path();
+  if (dataset.empty()) dataset = ".";
+  if (!is_dataset(dataset)) return std::nullopt;
+  return CasePath{dataset, path.parent_path().filename().string() + "/" + path.filename().string()};
+}
+
+Scene scene_of_simulation(const KnownScene& known) {
+  Scene scene = scene_of(known);
+  scene.camera.depth_scale = depth_scale;
+  return scene;
+}
+
+Scene scene_of_case(const fs::path& directory, const CaseName& named) {
+  const Dataset dataset = read_dataset(directory);
+  const CaseId id = case_named(dataset, named.name);
+  const Recipe recipe = recipe_of(dataset, id);
+  KnownScene known = known_scene(recipe, id);
+  const std::vector<Scanner> all = scanners(recipe);
+  const auto scanner = std::ranges::find(all, named.scanner, &Scanner::name);
+  if (scanner != all.end()) known.camera = scanner->camera;
+  return scene_of_simulation(known);
+}
+
+Scene scene_of_dataset(const fs::path& directory, const std::string& input) {
+  const std::optional<CaseName> named = case_of_file(directory, input);
+  if (!named)
+    throw InputError({directory.string(), 0, ""},
+                     fmt::format("a dataset, and {}, which is not in it", excerpt(input)),
+                     fmt::format("the case that it is of, such as {}", (directory / "A10" / "1").string()));
+  return scene_of_case(directory, *named);
+}
+
+// What all cases of a recipe have in common.
+Scene scene_of_recipe(const fs::path& file) {
+  const Recipe recipe = read_recipe(file);
+  const std::string remedy = "a case of a dataset, such as DATASET/A10/1, or a scene file";
+  if (!recipe.random.empty())
+    throw InputError({file.string(), 0, recipe.random.front().path}, "a number that is drawn for each case",
+                     remedy);
+  Scene scene = scene_of_simulation(known_scene(recipe, {recipe.sets.front().name}));
+  for (const SetRecipe& set : recipe.sets) {
+    if (scene_of(known_scene(recipe, {set.name})).tubes != scene.tubes)
+      throw InputError({file.string(), 0, "set"}, "sets of different tubes", remedy);
+  }
+  return scene;
+}
+
+bool is_recipe(const fs::path& file) {
+  return parse_toml(read_file(file), file.string()).contains("set");
+}
+
+// BOP's images, and the files of a dataset, are called by their numbers.
+std::optional<int> number_of(const std::string& file) {
+  return to_number<int>(fs::path(file).stem().string());
+}
+
+/// The value that an option's text stands for.
+template <typename Value>
+Value choice(const std::string& text, const std::string& option,
+             const std::vector<std::pair<std::string, Value>>& choices) {
+  std::string names;
+  for (const auto& [name, value] : choices) {
+    if (name == text) return value;
+    names += (names.empty() ? "" : " or ") + name;
+  }
+  throw InputError({"", 0, option}, excerpt(text), names);
+}
+
+void override_camera(const SceneOptions& options, const std::string& input, Scene& scene) {
+  if (options.camera)
+    scene = overridden(scene, {.camera = read_camera_file(*options.camera, number_of(input))});
+  if (options.frame)
+    scene.camera.frame = choice<CloudFrame>(*options.frame, "--frame",
+                                            {{"camera", CloudFrame::camera}, {"world", CloudFrame::world}});
+  if (options.unit) scene.camera.unit = choice<double>(*options.unit, "--unit", {{"m", 1}, {"mm", 0.001}});
+}
+
+std::vector<std::optional<LengthRange>> ranges(const std::string& text, std::string_view unknown,
+                                               const std::string& option) {
+  if (text == unknown) return {std::nullopt};
+  std::vector<std::optional<LengthRange>> result;
+  for (const double length : parse_lengths(text, option)) result.emplace_back(LengthRange{length, length});
+  return result;
+}
+
+// Each radius makes a class of tubes, unless there are as many already.
+void override_radii(const std::string& text, std::vector<TubeClass>& classes) {
+  const auto radii = ranges(text, "auto", "--radius");
+  if (classes.size() == 1) classes.assign(radii.size(), classes.front());
+  if (classes.size() != radii.size())
+    throw InputError({"", 0, "--radius"}, counted(radii.size(), "number"),
+                     fmt::format("one for each of the scene's {} classes of tubes", classes.size()));
+  for (std::size_t i = 0; i < radii.size(); ++i) classes[i].radius = radii[i];
+}
+
+// Calls `set` for each class with its value: its own, or the only one.
+template <typename Value>
+void set_each(const std::vector<Value>& values, const std::string& what, std::vector<TubeClass>& classes,
+              const std::function<void(TubeClass&, const Value&)>& set) {
+  if (values.size() != 1 && values.size() != classes.size())
+    throw InputError({"", 0, "--" + what}, fmt::format("{} {}s", values.size(), what),
+                     fmt::format("one, or one for each radius: {}", classes.size()));
+  for (std::size_t i = 0; i < classes.size(); ++i) set(classes[i], values[values.size() == 1 ? 0 : i]);
+}
+
+void override_tubes(const SceneOptions& options, std::vector<TubeClass>& classes) {
+  if (classes.empty()) classes.emplace_back();
+  if (options.radius) override_radii(*options.radius, classes);
+  if (options.length) {
+    set_each<std::optional<LengthRange>>(ranges(*options.length, "unknown", "--length"), "length", classes,
+                                         [](TubeClass& tubes, const std::optional<LengthRange>& length) {
+                                           tubes.length = length;
+                                           tubes.tree.clear();
+                                         });
+  }
+  std::vector<SegmentTree> trees;
+  for (const std::string& tree : options.trees) trees.push_back(parse_tree(tree, "--tree"));
+  if (trees.empty()) return;
+  set_each<SegmentTree>(trees, "tree", classes, [](TubeClass& tubes, const SegmentTree& tree) {
+    tubes.tree = tree;
+    tubes.length.reset();
+  });
+}
+
+}  // namespace
+
+void add_scene_option(CLI::App& command, std::optional<std::string>& scene) {
+  command
+      .add_option("--scene", scene,
+                  "What is known: a scene file (docs/formats.md), a recipe, a dataset's case such as "
+                  "DATASET/A10/1, or the dataset that the input is in")
+      ->option_text("SCENE");
+}
+
+void add_camera_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option("--camera", options.camera,
+                  "Camera file: of ROS, Open3D, BOP, or written by tanglebin scan --depth")
+      ->option_text("FILE");
+  command.add_option("--frame", options.frame, "Frame of the cloud's points: camera or world")
+      ->option_text("FRAME");
+  command.add_option("--unit", options.unit, "Unit of the cloud's coordinates: m or mm")->option_text("UNIT");
+}
+
+void add_tube_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option(
+          "--radius", options.radius,
+          "Radius of the tubes, m; 0.008,0.0125 for two classes of tubes; auto to estimate it from the "
+          "cloud")
+      ->option_text("METRES");
+  CLI::Option* const length = command
+                                  .add_option("--length", options.length,
+                                              "Length of the tubes, m; 0.4,0.5 for two classes; or unknown")
+                                  ->option_text("METRES");
+  command
+      .add_option(
+          "--tree", options.trees,
+          "Segments of branching tubes, as pairs of nodes with a length, m: 1-2:0.3,1-3:0.1,1-4:0.1; repeat "
+          "the option for each class (method axis)")
+      ->allow_extra_args(false)
+      ->excludes(length)
+      ->option_text("SEGMENTS");
+}
+
+std::optional<DatasetCase> dataset_case(const std::string& name) {
+  const std::optional<CasePath> path = case_path(without_slash(name));
+  if (!path) return std::nullopt;
+  Dataset dataset = read_dataset(path->dataset);
+  CaseId id = case_named(dataset, path->name);
+  return DatasetCase{std::move(dataset), std::move(id)};
+}
+
+Scene scene_named(const std::string& scene, const std::string& input) {
+  const fs::path path = without_slash(scene);
+  std::error_code ignored;
+  if (is_dataset(path)) return scene_of_dataset(path, input);
+  if (const auto named = case_path(path)) return scene_of_case(named->dataset, {named->name, ""});
+  if (!fs::exists(path, ignored) || fs::is_directory(path, ignored))
+    throw InputError({"", 0, "--scene"},
+                     excerpt(scene) + (fs::exists(path, ignored) ? ", a directory" : ", nothing"),
+                     "a scene file, a recipe, a dataset, or one of its cases, such as DATASET/A10/1");
+  return is_recipe(path) ? scene_of_recipe(path) : read_scene(path, number_of(input));
+}
+
+Support support_in(const std::optional<std::string>& scene, const std::string& input) {
+  const Scene named = scene ? scene_named(*scene, input) : Scene{};
+  return named.support.value_or(Support{.shape = Support::Shape::nothing});
+}
+
+Scene scene_of(const SceneOptions& options, const std::string& input) {
+  Scene scene = options.scene ? scene_named(*options.scene, input) : Scene{};
+  override_camera(options, input, scene);
+  if (options.radius || options.length || !options.trees.empty()) override_tubes(options, scene.tubes);
+  validate(scene);
+  return scene;
+}
+
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) print_error("tanglebin: {}\n", note);
+}
+
+}  // namespace tanglebin::cli

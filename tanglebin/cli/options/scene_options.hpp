@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/scene/resolve_scene.hpp"
+#include "tanglebin/scene/scene.hpp"
+
+namespace CLI {
+class App;
+}
+
+// Options, shared by several commands, that say what is known about a scene.
+namespace tanglebin::cli {
+
+/// What is known, as the command line has it.
+struct SceneOptions {
+  std::optional<std::string> scene;
+  std::optional<std::string> camera;
+  std::optional<std::string> frame;
+  std::optional<std::string> unit;
+  std::optional<std::string> radius;
+  std::optional<std::string> length;
+  std::vector<std::string> trees;
+};
+
+/// Adds --scene, which sets `scene`.
+void add_scene_option(CLI::App& command, std::optional<std::string>& scene);
+
+/// Adds --camera, --frame and --unit, which fill `options`.
+void add_camera_options(CLI::App& command, SceneOptions& options);
+
+/// Adds --radius, --length and --tree, which fill `options`.
+void add_tube_options(CLI::App& command, SceneOptions& options);
+
+/// The scene that --scene names: a scene file, a recipe, a dataset's case as DATASET/A10/1, or a dataset in
+/// which `input`, a file, is. Throws InputError naming what is wrong with it.
+Scene scene_named(const std::string& scene, const std::string& input);
+
+/// The support of the scene that --scene names; nothing without one.
+Support support_in(const std::optional<std::string>& scene, const std::string& input);
+
+/// A finished case of a dataset.
+struct DatasetCase {
+  Dataset dataset;
+  CaseId id;
+};
+
+/// The case that a path such as DATASET/A10/1 names; none for the path of a file or of nothing in a dataset.
+/// Throws InputError for a case that the dataset does not have.
+std::optional<DatasetCase> dataset_case(const std::string& name);
+
+/// The scene of the options, of which all but --scene override its single values. `input` is the cloud's
+/// file. Throws InputError naming the option.
+Scene scene_of(const SceneOptions& options, const std::string& input);
+
+/// Prints what was estimated or taken for granted, a line each, on standard error.
+void print_notes(const std::vector<std::string>& notes);
+
+}  // namespace tanglebin::cli

@@ -1,0 +1,165 @@
+#include "tanglebin/model/axis/fragments/fragments.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "tanglebin/base/median.hpp"
+#include "tanglebin/model/axis/fragments/skeleton.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Statistics of the points near the end of a fragment.
+struct Surroundings {
+  std::vector<Vector3d> votes;  ///< m, relative to the end
+  Vector3d mean;                ///< of the votes, m, relative to the end
+  Matrix3d spread;              ///< of the votes, m²
+  Vector3d normal;              ///< mean of the normals n
+  Matrix3d normals;             ///< mean of n nᵀ
+};
+
+Surroundings surroundings(const Vector3d& end, const std::vector<std::size_t>& points, const AxisVotes& votes,
+                          double reach) {
+  std::vector<Vector3d> near;
+  Vector3d sum = Vector3d::Zero();
+  Matrix3d products = Matrix3d::Zero();
+  Vector3d sum_of_normals = Vector3d::Zero();
+  Matrix3d products_of_normals = Matrix3d::Zero();
+  for (const std::size_t point : points) {
+    const Vector3d d = votes.votes[point].cast<double>() - end;
+    if (d.squaredNorm() > reach * reach) continue;
+    const Vector3d normal = votes.normals[point].cast<double>();
+    near.push_back(d);
+    sum += d;
+    products += d * d.transpose();
+    sum_of_normals += normal;
+    products_of_normals += normal * normal.transpose();
+  }
+  const auto count = static_cast<double>(near.size());
+  const Vector3d mean = sum / count;
+  return {std::move(near), mean, products / count - mean * mean.transpose(), sum_of_normals / count,
+          products_of_normals / count};
+}
+
+// If a tube is seen end-on, only its cap may have votes: all in one place, from normals in all directions.
+bool is_cap(const Surroundings& around, double radius, const FragmentSettings& settings) {
+  if (std::sqrt(around.spread.trace()) > settings.spot_max * radius) return false;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(around.normals, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0] > settings.cap_min;
+}
+
+// The axis is where the votes spread out, and perpendicular to the normals, so even a short piece that shows
+// much of its circumference has a direction. Behind a cap, the tube continues away from the normals.
+Vector3d direction(const Surroundings& around, double radius, const FragmentSettings& settings) {
+  if (is_cap(around, radius, settings)) return -around.normal.normalized();
+  const double unit = settings.step * radius;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(around.normals - around.spread / (unit * unit));
+  return solver.eigenvectors().col(0);
+}
+
+// How far the votes extend, m, ignoring the outermost as noise.
+double extent(const std::vector<Vector3d>& votes, const Vector3d& outward, double least) {
+  std::vector<double> along;
+  along.reserve(votes.size());
+  for (const Vector3d& vote : votes) along.push_back(vote.dot(outward));
+  constexpr double share = 0.02;
+  const auto last = along.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(along.size()));
+  std::ranges::nth_element(along, last, std::greater<>());
+  return std::max(*last, least);
+}
+
+std::vector<std::size_t> leaves(const std::vector<std::size_t>& parents) {
+  std::vector<std::size_t> neighbours(parents.size());
+  for (std::size_t node = 1; node < parents.size(); ++node) {
+    ++neighbours[node];
+    ++neighbours[parents[node]];
+  }
+  std::vector<std::size_t> found;
+  for (std::size_t node = 0; node < parents.size(); ++node) {
+    if (neighbours[node] <= 1) found.push_back(node);
+  }
+  return found;
+}
+
+std::vector<FragmentEnd> ends_of(const Fragment& fragment, const AxisVotes& votes, double radius,
+                                 const FragmentSettings& settings) {
+  std::vector<FragmentEnd> ends;
+  for (const std::size_t leaf : leaves(fragment.parents)) {
+    const Vector3d& end = fragment.nodes[leaf];
+    const Surroundings around = surroundings(end, fragment.points, votes, settings.end_length * radius);
+    const double least = settings.extent_min * radius;
+    const auto add_end = [&](const Vector3d& outward) {
+      ends.push_back({leaf, end + extent(around.votes, outward, least) * outward, outward});
+    };
+    const Vector3d axis = direction(around, radius, settings);
+    const Vector3d outward = axis.dot(around.mean) > 0 ? Vector3d(-axis) : axis;
+    add_end(outward);
+    if (fragment.nodes.size() == 1) add_end(-outward);
+  }
+  // A fragment with two nodes may be too short to tell its ends apart.
+  constexpr std::size_t two_nodes = 2;
+  if (fragment.nodes.size() == two_nodes && ends[0].outward.dot(ends[1].outward) > 0) {
+    ends[1].outward = -ends[1].outward;
+  }
+  return ends;
+}
+
+double length_of(const Fragment& fragment) {
+  double length = 0;
+  for (std::size_t node = 1; node < fragment.nodes.size(); ++node) {
+    length += (fragment.nodes[node] - fragment.nodes[fragment.parents[node]]).norm();
+  }
+  return length;
+}
+
+// Of a close scanner's points, a few in one place are noise.
+void drop_specks(std::vector<Fragment>& fragments, double radius, double share_min) {
+  const double points_min = share_min * points_on_a_radius(fragments, radius);
+  std::erase_if(fragments, [&](const Fragment& fragment) {
+    return static_cast<double>(fragment.points.size()) < points_min;
+  });
+}
+
+}  // namespace
+
+double points_on_a_radius(const std::vector<Fragment>& fragments, double radius) {
+  constexpr double length_min = 2;  // radii
+  std::vector<double> densities;
+  for (const Fragment& fragment : fragments) {
+    if (fragment.length < length_min * radius) continue;
+    densities.push_back(static_cast<double>(fragment.points.size()) * radius / fragment.length);
+  }
+  return densities.empty() ? 0 : median(std::move(densities));
+}
+
+std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
+                                     const FragmentSettings& settings) {
+  const CutSettings cut{.branch_min = settings.branch_min * radius,
+                        .spread_max = settings.spread_max * radius,
+                        .share_min = settings.share_min,
+                        .weak_max = settings.weak_max,
+                        .parallel_max = settings.parallel_max,
+                        .may_branch = with_branches};
+  std::vector<Fragment> fragments;
+  for (Skeleton& skeleton :
+       find_skeletons(votes.votes, votes.normals, settings.voxel * radius, settings.step * radius, cut)) {
+    if (skeleton.points.size() < static_cast<std::size_t>(settings.points_min)) continue;
+    Fragment fragment{
+        std::move(skeleton.points), std::move(skeleton.nodes), std::move(skeleton.parents), {}, 0};
+    fragment.ends = ends_of(fragment, votes, radius, settings);
+    fragment.length = length_of(fragment);
+    fragments.push_back(std::move(fragment));
+  }
+  drop_specks(fragments, radius, settings.speck_max);
+  return fragments;
+}
+
+}  // namespace tanglebin

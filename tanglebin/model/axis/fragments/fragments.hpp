@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "tanglebin/model/axis/fragments/axis_votes.hpp"
+#include "tanglebin/model/axis/settings/axis_settings.hpp"
+
+namespace tanglebin {
+
+/// An end of a fragment's centre line.
+struct FragmentEnd {
+  std::size_t node;          ///< index into Fragment::nodes
+  Eigen::Vector3d position;  ///< m
+  Eigen::Vector3d outward;   ///< unit, along the centre line
+  double hidden = 0;         ///< m, how far its tube may go on unseen, straight ahead (look_beyond_ends())
+};
+
+/// A piece of a tube that is visible without a break.
+struct Fragment {
+  std::vector<std::size_t> points;     ///< indices, ascending
+  std::vector<Eigen::Vector3d> nodes;  ///< m, nodes of its centre line, a tree
+  std::vector<std::size_t> parents;    ///< for each node, the preceding one; 0 for the first
+  std::vector<FragmentEnd> ends;       ///< two, and one more for each branch
+  double length;                       ///< m, of the centre line
+};
+
+/// The median number of points that a radius (m) of a fragment's length has; 0 if all fragments are short.
+double points_on_a_radius(const std::vector<Fragment>& fragments, double radius);
+
+/// Finds the fragments: thin clusters of votes. Centre lines branch only if `with_branches`. `radius` in m.
+std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
+                                     const FragmentSettings& settings);
+
+}  // namespace tanglebin

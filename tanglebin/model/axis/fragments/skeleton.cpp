@@ -1,0 +1,441 @@
+#include "tanglebin/model/axis/fragments/skeleton.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <queue>
+#include <unordered_map>
+#include <utility>
+
+#include "tanglebin/base/constants.hpp"
+#include "tanglebin/base/median.hpp"
+#include "tanglebin/model/axis/fragments/voxel.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3i;
+
+struct Voxel {
+  Vector3i key;
+  Vector3d sum = Vector3d::Zero();      // of its points
+  Vector3d normals = Vector3d::Zero();  // sum of their normals
+  std::size_t points = 0;
+  std::vector<std::size_t> neighbours{};  // touching voxels
+
+  Vector3d mean() const { return sum / static_cast<double>(points); }
+};
+
+// One of each pair of opposite neighbours of a voxel.
+std::array<Vector3i, 13> half_of_the_neighbours() {
+  std::array<Vector3i, 13> offsets;
+  std::size_t count = 0;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        if (std::array{x, y, z} > std::array{0, 0, 0}) offsets[count++] = {x, y, z};
+      }
+    }
+  }
+  return offsets;
+}
+
+struct VoxelGrid {
+  std::vector<Voxel> voxels;
+  std::vector<std::size_t> of_points;  // for each point its voxel; no_index if the point is not finite
+};
+
+VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
+                      double size) {
+  VoxelGrid grid{{}, std::vector(points.size(), no_index)};
+  std::unordered_map<std::uint64_t, std::size_t> at;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) continue;
+    const Vector3d point = points[i].cast<double>();
+    const Vector3i key = voxel_at(point, size);
+    const auto [found, is_new] = at.try_emplace(voxel_key(key), grid.voxels.size());
+    if (is_new) grid.voxels.push_back({key});
+    Voxel& voxel = grid.voxels[found->second];
+    voxel.sum += point;
+    if (!normals.empty()) voxel.normals += normals[i].cast<double>();
+    ++voxel.points;
+    grid.of_points[i] = found->second;
+  }
+  const auto offsets = half_of_the_neighbours();
+  for (std::size_t i = 0; i < grid.voxels.size(); ++i) {
+    for (const Vector3i& offset : offsets) {
+      const auto found = at.find(voxel_key(grid.voxels[i].key + offset));
+      if (found == at.end()) continue;
+      grid.voxels[i].neighbours.push_back(found->second);
+      grid.voxels[found->second].neighbours.push_back(i);
+    }
+  }
+  return grid;
+}
+
+// Cuts the links of a voxel to its neighbours.
+void isolate(std::vector<Voxel>& voxels, std::size_t voxel) {
+  for (const std::size_t neighbour : voxels[voxel].neighbours)
+    std::erase(voxels[neighbour].neighbours, voxel);
+  voxels[voxel].neighbours.clear();
+}
+
+// The connected components of a set of voxels, to which all their neighbours belong.
+std::vector<std::vector<std::size_t>> connected_components(const std::vector<Voxel>& voxels,
+                                                           const std::vector<std::size_t>& members,
+                                                           std::vector<bool>& seen) {
+  std::vector<std::vector<std::size_t>> components;
+  for (const std::size_t member : members) seen[member] = false;
+  for (const std::size_t first : members) {
+    if (seen[first]) continue;
+    std::vector<std::size_t> component{first};
+    seen[first] = true;
+    for (std::size_t next = 0; next < component.size(); ++next) {
+      for (const std::size_t neighbour : voxels[component[next]].neighbours) {
+        if (seen[neighbour]) continue;
+        seen[neighbour] = true;
+        component.push_back(neighbour);
+      }
+    }
+    components.push_back(std::move(component));
+  }
+  return components;
+}
+
+/// Lays a tree along each connected component of the voxels.
+class TreeMaker {
+public:
+  TreeMaker(const std::vector<Voxel>& voxels, double step)
+      : voxels_(voxels), step_(step), distances_(voxels.size()), nodes_(voxels.size(), no_index) {}
+
+  /// The node of the last tree that a voxel of its component belongs to.
+  std::size_t node_of(std::size_t voxel) const { return nodes_[voxel]; }
+
+  // The nodes are level sets of the distance from one end, as in a Reeb graph.
+  Skeleton tree(std::vector<std::size_t> component) {
+    for (const std::size_t voxel : component) nodes_[voxel] = no_index;
+    measure_from(component.front(), component);
+    const std::size_t end =
+        *std::ranges::max_element(component, {}, [&](std::size_t v) { return distances_[v]; });
+    measure_from(end, component);
+    std::ranges::stable_sort(component, {}, [&](std::size_t voxel) { return distances_[voxel]; });
+    Skeleton result;
+    for (const std::size_t voxel : component) {
+      if (nodes_[voxel] == no_index) add_node(result, voxel);
+    }
+    return result;
+  }
+
+private:
+  // Dijkstra's algorithm.
+  void measure_from(std::size_t start, const std::vector<std::size_t>& component) {
+    for (const std::size_t voxel : component) distances_[voxel] = infinity;
+    using Entry = std::pair<double, std::size_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    distances_[start] = 0;
+    queue.push({0, start});
+    while (!queue.empty()) {
+      const auto [distance, voxel] = queue.top();
+      queue.pop();
+      if (distance > distances_[voxel]) continue;
+      for (const std::size_t neighbour : voxels_[voxel].neighbours) {
+        const double through = distance + (voxels_[neighbour].mean() - voxels_[voxel].mean()).norm();
+        if (through >= distances_[neighbour]) continue;
+        distances_[neighbour] = through;
+        queue.push({through, neighbour});
+      }
+    }
+  }
+
+  int level(std::size_t voxel) const { return static_cast<int>(distances_[voxel] / step_); }
+
+  // Adds a node for all voxels of this level that are connected with `first`. Its parent is the first node of
+  // the level below that it touches.
+  void add_node(Skeleton& skeleton, std::size_t first) {
+    const std::size_t node = skeleton.nodes.size();
+    std::size_t parent = no_index;
+    Vector3d sum = Vector3d::Zero();
+    std::size_t count = 0;
+    std::vector<std::size_t> members{first};
+    nodes_[first] = node;
+    for (std::size_t next = 0; next < members.size(); ++next) {
+      const Voxel& voxel = voxels_[members[next]];
+      sum += voxel.sum;
+      count += voxel.points;
+      for (const std::size_t neighbour : voxel.neighbours) {
+        if (level(neighbour) < level(first)) parent = std::min(parent, nodes_[neighbour]);
+        if (level(neighbour) != level(first) || nodes_[neighbour] != no_index) continue;
+        nodes_[neighbour] = node;
+        members.push_back(neighbour);
+      }
+    }
+    skeleton.nodes.emplace_back(sum / static_cast<double>(count));
+    skeleton.parents.push_back(parent == no_index ? 0 : parent);
+  }
+
+  const std::vector<Voxel>& voxels_;
+  double step_;
+  std::vector<double> distances_;   // of each voxel from the end of its component
+  std::vector<std::size_t> nodes_;  // of each voxel
+};
+
+/// Prunes a tree to the longest path from its first node and its true branches. These are long, and their
+/// tips are away from the rest; branches that are only noise run beside it.
+class Pruner {
+public:
+  Pruner(const Skeleton& whole, double branch_min)
+      : whole_(whole),
+        branch_min_(branch_min),
+        below_(whole.nodes.size(), 0),
+        next_(whole.nodes.size(), no_index),
+        kept_(whole.nodes.size()) {
+    // Children come after their parents, so everything below a node is known before the node.
+    for (std::size_t node = whole.nodes.size(); node-- > 1;) {
+      const std::size_t parent = whole.parents[node];
+      if (next_[parent] != no_index && through(node) <= below_[parent]) continue;
+      below_[parent] = through(node);
+      next_[parent] = node;
+    }
+  }
+
+  Skeleton pruned() {
+    keep(0);
+    // A branch starts from a longer one.
+    for (const std::size_t node : branches()) {
+      if (kept_[whole_.parents[node]] && is_apart(tip_of(node))) keep(node);
+    }
+    Skeleton result;
+    std::vector<std::size_t> new_index(whole_.nodes.size());
+    for (std::size_t node = 0; node < whole_.nodes.size(); ++node) {
+      if (!kept_[node]) continue;
+      new_index[node] = result.nodes.size();
+      result.nodes.push_back(whole_.nodes[node]);
+      result.parents.push_back(new_index[whole_.parents[node]]);
+    }
+    return result;
+  }
+
+  /// The nodes from which more than one long path goes down, ascending.
+  std::vector<std::size_t> forks() const {
+    std::vector<std::size_t> result;
+    for (const std::size_t node : branches()) {
+      const std::size_t fork = whole_.parents[node];
+      // The other path must be long too.
+      if (below_[fork] >= branch_min_) result.push_back(fork);
+    }
+    std::ranges::sort(result);
+    return result;
+  }
+
+private:
+  // The longest path down from the node's parent through the node, m.
+  double through(std::size_t node) const {
+    return below_[node] + (whole_.nodes[node] - whole_.nodes[whole_.parents[node]]).norm();
+  }
+
+  // The first nodes of the branches that are long enough, longest first.
+  std::vector<std::size_t> branches() const {
+    std::vector<std::size_t> result;
+    for (std::size_t node = 1; node < whole_.nodes.size(); ++node) {
+      if (next_[whole_.parents[node]] != node && through(node) >= branch_min_) result.push_back(node);
+    }
+    std::ranges::stable_sort(result, std::greater<>(), [&](std::size_t node) { return through(node); });
+    return result;
+  }
+
+  std::size_t tip_of(std::size_t node) const {
+    while (next_[node] != no_index) node = next_[node];
+    return node;
+  }
+
+  bool is_apart(std::size_t tip) const {
+    for (std::size_t node = 0; node < whole_.nodes.size(); ++node) {
+      if (kept_[node] && (whole_.nodes[tip] - whole_.nodes[node]).norm() <= branch_min_) return false;
+    }
+    return true;
+  }
+
+  // Keeps the longest path from a node down to a tip.
+  void keep(std::size_t node) {
+    for (; node != no_index; node = next_[node]) kept_[node] = true;
+  }
+
+  const Skeleton& whole_;
+  double branch_min_;
+  std::vector<double> below_;      // m, the longest path down from each node
+  std::vector<std::size_t> next_;  // first node of that path; no_index at a tip
+  std::vector<bool> kept_;
+};
+
+/// Cuts connected sets of voxels until each piece looks like a tube.
+class Cutter {
+public:
+  Cutter(VoxelGrid& grid, double step, const CutSettings& settings)
+      : grid_(grid),
+        settings_(settings),
+        maker_(grid.voxels, step),
+        seen_(grid.voxels.size()),
+        skeleton_of_(grid.voxels.size(), no_index) {}
+
+  void cut(const std::vector<std::size_t>& members) {
+    for (const std::vector<std::size_t>& component : connected_components(grid_.voxels, members, seen_))
+      take_all(without_weak(component, settings_.weak_max), 0);
+  }
+
+  std::vector<Skeleton> skeletons() {
+    for (std::size_t i = 0; i < grid_.of_points.size(); ++i) {
+      if (grid_.of_points[i] == no_index) continue;
+      const std::size_t skeleton = skeleton_of_[grid_.of_points[i]];
+      if (skeleton != no_index) skeletons_[skeleton].points.push_back(i);
+    }
+    return std::move(skeletons_);
+  }
+
+private:
+  void take_all(const std::vector<std::size_t>& members, std::size_t cuts) {
+    for (const std::vector<std::size_t>& component : connected_components(grid_.voxels, members, seen_))
+      take(component, cuts);
+  }
+
+  // A component that is left after this number of cuts: of weak voxels and of forks, by turns.
+  void take(const std::vector<std::size_t>& component, std::size_t cuts) {
+    const Skeleton whole = maker_.tree(component);
+    Skeleton skeleton = Pruner(whole, settings_.branch_min).pruned();
+    if (looks_like_a_tube(skeleton, component)) {
+      if (cuts > 0 && !is_round(component)) return;
+      for (const std::size_t member : component) skeleton_of_[member] = skeletons_.size();
+      skeletons_.push_back(std::move(skeleton));
+    } else if (cuts < 2 * weak_shares.size()) {
+      const bool is_weak_next = cuts % 2 == 0;
+      take_all(
+          is_weak_next ? without_weak(component, weak_shares[cuts / 2]) : without_forks(component, whole),
+          cuts + 1);
+    }
+  }
+
+  // Nearly all votes are near the skeleton, which has branches only if tubes have.
+  bool looks_like_a_tube(const Skeleton& skeleton, const std::vector<std::size_t>& component) const {
+    if (!settings_.may_branch && has_branches(skeleton)) return false;
+    std::size_t near = 0;
+    std::size_t all = 0;
+    for (const std::size_t member : component) {
+      const Voxel& voxel = grid_.voxels[member];
+      all += voxel.points;
+      const Vector3d mean = voxel.mean();
+      if (std::ranges::any_of(skeleton.nodes, [&](const Vector3d& node) {
+            return (node - mean).norm() < settings_.spread_max;
+          }))
+        near += voxel.points;
+    }
+    return static_cast<double>(near) >= settings_.share_min * static_cast<double>(all);
+  }
+
+  // Seen from more than one side: the normals that lead to one place of the axis differ.
+  bool is_round(const std::vector<std::size_t>& component) const {
+    double sum = 0;
+    double votes = 0;
+    for (const std::size_t member : component) {
+      sum += grid_.voxels[member].normals.norm();
+      votes += static_cast<double>(grid_.voxels[member].points);
+    }
+    return sum < settings_.parallel_max * votes;
+  }
+
+  static bool has_branches(const Skeleton& skeleton) {
+    std::vector<int> children(skeleton.nodes.size());
+    for (std::size_t node = 1; node < skeleton.nodes.size(); ++node) ++children[skeleton.parents[node]];
+    for (std::size_t node = 0; node < children.size(); ++node) {
+      if (children[node] > (node == 0 ? 2 : 1)) return true;
+    }
+    return false;
+  }
+
+  // Without the voxels that have fewer votes than this share of the median.
+  std::vector<std::size_t> without_weak(const std::vector<std::size_t>& component, double share) {
+    const double least = share * median_of_votes(component);
+    return without(component, [&](std::size_t voxel) {
+      return static_cast<double>(grid_.voxels[voxel].points) < least;
+    });
+  }
+
+  // Without the voxels where long branches of the tree part.
+  std::vector<std::size_t> without_forks(const std::vector<std::size_t>& component, const Skeleton& whole) {
+    const std::vector<std::size_t> forks = Pruner(whole, settings_.branch_min).forks();
+    return without(component, [&](std::size_t voxel) {
+      return std::ranges::binary_search(forks, maker_.node_of(voxel));
+    });
+  }
+
+  template <typename Goes>
+  std::vector<std::size_t> without(const std::vector<std::size_t>& component, const Goes& goes) {
+    std::vector<std::size_t> rest;
+    for (const std::size_t voxel : component) {
+      if (goes(voxel)) {
+        isolate(grid_.voxels, voxel);
+      } else {
+        rest.push_back(voxel);
+      }
+    }
+    return rest;
+  }
+
+  // Of the votes, each with the number of votes in its voxel.
+  double median_of_votes(const std::vector<std::size_t>& component) const {
+    std::vector<std::size_t> votes;
+    std::size_t sum = 0;
+    for (const std::size_t voxel : component) {
+      votes.push_back(grid_.voxels[voxel].points);
+      sum += votes.back();
+    }
+    std::ranges::sort(votes);
+    std::size_t below = 0;
+    for (const std::size_t count : votes) {
+      below += count;
+      if (2 * below >= sum) return static_cast<double>(count);
+    }
+    return 0;
+  }
+
+  static constexpr std::array weak_shares = {0.125, 0.25, 0.5};  // of the median number of votes
+
+  VoxelGrid& grid_;
+  const CutSettings& settings_;
+  TreeMaker maker_;
+  std::vector<bool> seen_;
+  std::vector<std::size_t> skeleton_of_;  // of each voxel; no_index if it is in none
+  std::vector<Skeleton> skeletons_;
+};
+
+std::vector<std::size_t> all_of(const VoxelGrid& grid) {
+  std::vector<std::size_t> all(grid.voxels.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+}  // namespace
+
+std::vector<Skeleton> find_skeletons(const std::vector<Eigen::Vector3f>& points, double voxel, double step,
+                                     double branch_min) {
+  return find_skeletons(points, {}, voxel, step,
+                        {.branch_min = branch_min,
+                         .spread_max = infinity,
+                         .share_min = 0,
+                         .weak_max = 0,
+                         .parallel_max = 1,
+                         .may_branch = true});
+}
+
+std::vector<Skeleton> find_skeletons(const std::vector<Eigen::Vector3f>& points,
+                                     const std::vector<Eigen::Vector3f>& normals, double voxel, double step,
+                                     const CutSettings& settings) {
+  VoxelGrid grid = fill_voxels(points, normals, voxel);
+  Cutter cutter(grid, step, settings);
+  cutter.cut(all_of(grid));
+  return cutter.skeletons();
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,364 @@
+#include "tanglebin/model/axis/links/choose_links.hpp"
+
+#include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <random>
+#include <unordered_map>
+#include <utility>
+
+#include "tanglebin/model/axis/links/assemble.hpp"
+#include "tanglebin/model/axis/links/beyond_ends.hpp"
+#include "tanglebin/model/axis/links/line_tree.hpp"
+#include "tanglebin/model/axis/links/matching.hpp"
+#include "tanglebin/model/axis/links/tube_shapes.hpp"
+
+namespace tanglebin {
+namespace {
+
+/// A part of a tube: one fragment, or several with the links between them.
+struct Part {
+  double length;  ///< m
+  int ends;
+  std::uint64_t links;  ///< sum of the random numbers of its links
+  double hidden;        ///< m, how far it may go on unseen beyond its ends
+  double cost;          ///< of its shape, in log odds
+};
+
+/// The input of the choice.
+struct Candidates {
+  const std::vector<Fragment>& fragments;
+  const std::vector<Link>& links;  ///< heaviest first
+  const TubeKind& kind;
+  const LinkSettings& settings;
+  double tube_length_max = length_max(kind.length(), settings);  ///< m
+  int tube_ends_max = count_ends(kind.segments) + settings.ends_tolerance;
+  std::vector<WeightedPair> pairs = {};  ///< the two ends of each link as vertices, and its weight
+  std::size_t vertices = 0;
+  std::vector<std::uint64_t> numbers = {};  ///< random, one per link; no two sets of links have the same sum
+  std::vector<Part> alone = {};             ///< each fragment by itself
+  TubeShapes shapes = {};                   ///< what chains look like
+};
+
+// The cost of what a part of a chain lacks, more than can be hidden beyond its ends. It may have been
+// misjudged that an end is free, so the cost has a limit.
+double cost_of_length(const Candidates& candidates, const Part& chain) {
+  constexpr double cost_max = 10;
+  const double unseen = unseen_length(chain.length, chain.hidden, candidates.kind, candidates.settings);
+  return std::clamp(unseen / (candidates.settings.unseen_unit * candidates.kind.radius), 0.0, cost_max);
+}
+
+// The centre line of a chain: these fragments with the chosen links between them.
+CentrePath centre_path(const Candidates& candidates, const std::vector<std::size_t>& fragments,
+                       const std::vector<std::size_t>& chosen) {
+  const LineTree line =
+      assembled_line(candidates.fragments, fragments, candidates.links, chosen, candidates.kind.radius);
+  const Paths paths(line);
+  CentrePath path;
+  for (const std::size_t node : paths.all().front()) path.push_back(line.nodes[node]);
+  return path;
+}
+
+// The cost of looking unlike the whole chains of the scan.
+double cost_of_looks(const Candidates& candidates, const CentrePath& chain) {
+  constexpr double cost_max = 20;
+  const double strangeness = candidates.shapes.strangeness(chain) - candidates.settings.strangeness_max;
+  return std::clamp(candidates.settings.strangeness_weight * strangeness, 0.0, cost_max);
+}
+
+// The shape cost of a part of a tree: these fragments with the chosen links between them. If much of the tree
+// is missing, either that much is occluded or the part is no tree at all; the cheaper explanation counts.
+double cost_of_tree(const Candidates& candidates, const std::vector<std::size_t>& fragments,
+                    const std::vector<std::size_t>& chosen) {
+  const TubeKind& kind = candidates.kind;
+  const SegmentTree seen =
+      segments_of(assembled_line(candidates.fragments, fragments, candidates.links, chosen, kind.radius));
+  const double length = total_length(seen);
+  const double missing = std::min(length, std::max(0.0, kind.length() - length));
+  return misfit(seen, kind.segments) / (candidates.settings.misfit_unit * kind.radius) +
+         missing / (candidates.settings.missing_unit * kind.radius);
+}
+
+bool has_shape_costs(const Candidates& candidates) {
+  return candidates.kind.branches() || candidates.shapes.are_known();
+}
+
+// The shape cost of a part: these fragments with the chosen links between them.
+double shape_cost(const Candidates& candidates, const std::vector<std::size_t>& fragments,
+                  const std::vector<std::size_t>& chosen) {
+  return candidates.kind.branches() ? cost_of_tree(candidates, fragments, chosen)
+                                    : cost_of_looks(candidates, centre_path(candidates, fragments, chosen));
+}
+
+/// A set of links in which no two share an end and every tube is possible.
+class Selection {
+public:
+  /// Shape costs already computed, keyed by Part::links.
+  using Costs = std::unordered_map<std::uint64_t, double>;
+
+  Selection(const Candidates& candidates, Costs& costs)
+      : candidates_(&candidates),
+        costs_(&costs),
+        tubes_(candidates.fragments.size()),
+        parts_(candidates.alone),
+        used_(candidates.vertices) {}
+
+  /// Takes a link if its ends are free and the resulting tube is possible and likelier than its two parts.
+  /// Returns true if it did.
+  bool take(std::size_t link) {
+    const std::size_t first = tubes_.find_set(candidates_->links[link].fragment);
+    const std::size_t second = tubes_.find_set(candidates_->links[link].to.fragment);
+    if (first == second) return false;
+    Part tube = joined(first, second, link);
+    if (tube.length > candidates_->tube_length_max || tube.ends > candidates_->tube_ends_max) return false;
+    tube.cost = cost_of(tube, first, second, link);
+    const auto& [from, to, weight] = candidates_->pairs[link];
+    const double gain = weight + parts_[first].cost + parts_[second].cost - tube.cost;
+    if (gain <= 0) return false;
+    tubes_.union_set(first, second);
+    parts_[tubes_.find_set(first)] = tube;
+    used_[from] = used_[to] = 1;
+    weight_ += gain;
+    taken_.push_back(link);
+    return true;
+  }
+
+  /// Takes as many of these links as possible, in order.
+  void take_possible(const std::vector<std::size_t>& links) {
+    for (const std::size_t link : links) {
+      if (has_free_ends(link)) take(link);  // usually false
+    }
+  }
+
+  /// Of the taken links, those outside the two tubes that `link` would join.
+  std::vector<std::size_t> without_tubes_of(std::size_t link, const std::vector<std::size_t>& taken) {
+    const std::size_t first = tubes_.find_set(candidates_->links[link].fragment);
+    const std::size_t second = tubes_.find_set(candidates_->links[link].to.fragment);
+    std::vector<std::size_t> others;
+    std::ranges::copy_if(taken, std::back_inserter(others), [&](std::size_t i) {
+      const std::size_t tube = tubes_.find_set(candidates_->links[i].fragment);
+      return tube != first && tube != second;
+    });
+    return others;
+  }
+
+  const std::vector<std::size_t>& taken() const { return taken_; }
+  /// The sum of the links' weights, less the shape costs.
+  double weight() const { return weight_; }
+
+private:
+  bool has_free_ends(std::size_t link) const {
+    const WeightedPair& pair = candidates_->pairs[link];
+    return (used_[pair.first] | used_[pair.second]) == 0;
+  }
+
+  Part joined(std::size_t first, std::size_t second, std::size_t link) const {
+    const Part& a = parts_[first];
+    const Part& b = parts_[second];
+    const Link& its = candidates_->links[link];
+    return {.length = a.length + its.gap + b.length,
+            .ends = a.ends + b.ends - ends_taken(its.kind),
+            .links = a.links + b.links + candidates_->numbers[link],
+            .hidden = a.hidden + b.hidden - hidden_beyond(its),
+            .cost = 0};
+  }
+
+  // Beyond the ends that a link takes, m.
+  double hidden_beyond(const Link& link) const {
+    const std::vector<Fragment>& fragments = candidates_->fragments;
+    const double from = fragments[link.fragment].ends[link.end].hidden;
+    return ends_taken(link.kind) == 1 ? from : from + fragments[link.to.fragment].ends[*link.to.end].hidden;
+  }
+
+  double cost_of(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
+    const double of_length = candidates_->kind.branches() ? 0 : cost_of_length(*candidates_, tube);
+    return has_shape_costs(*candidates_) ? of_length + cost_of_shape(tube, first, second, link) : of_length;
+  }
+
+  double cost_of_shape(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
+    const auto weighed = costs_->find(tube.links);
+    if (weighed != costs_->end()) return weighed->second;
+    std::vector<std::size_t> fragments;
+    for (std::size_t i = 0; i < candidates_->fragments.size(); ++i) {
+      const std::size_t part = tubes_.find_set(i);
+      if (part == first || part == second) fragments.push_back(i);
+    }
+    std::vector<std::size_t> chosen = taken_;
+    chosen.push_back(link);
+    std::ranges::sort(chosen);
+    return (*costs_)[tube.links] = shape_cost(*candidates_, fragments, chosen);
+  }
+
+  const Candidates* candidates_;
+  Costs* costs_;
+  boost::disjoint_sets_with_storage<> tubes_;
+  std::vector<Part> parts_;         // of the tube that each set represents
+  std::vector<std::uint8_t> used_;  // for each vertex; bytes are faster to read than bits
+  std::vector<std::size_t> taken_;
+  double weight_ = 0;
+};
+
+// Keeps what it can of `kept`, then adds the heaviest of the other links.
+Selection completed(Selection selection, const std::vector<std::size_t>& kept,
+                    const std::vector<std::size_t>& all) {
+  selection.take_possible(kept);
+  selection.take_possible(all);
+  return selection;
+}
+
+// Repeatedly moves to a heavier selection: one that contains a given link, whatever can be kept beside it,
+// and the heaviest of the others. A single link rarely repairs a tree made of parts of two, so this also
+// tries to rebuild both tubes that the link joins. A try looks at every link, so there is a limit to the
+// tries where there are many links: those between thousands of pieces of noise.
+Selection exchanged(const Selection& none, Selection best, const std::vector<std::size_t>& all,
+                    bool with_branches) {
+  constexpr double rounding = 1e-9;
+  constexpr std::size_t looks_max = 100'000'000;
+  std::size_t tries_left = looks_max / std::max<std::size_t>(all.size(), 1);
+  const auto heaviest_first = [](std::vector<std::size_t> links) {
+    std::ranges::sort(links);
+    return links;
+  };
+  std::vector<std::size_t> kept = heaviest_first(best.taken());
+  std::size_t in_vain = 0;  // links tried since the last exchange
+  for (std::size_t i = 0; in_vain < all.size() && tries_left > 0; i = (i + 1) % all.size(), --tries_left) {
+    ++in_vain;
+    Selection with_link = none;
+    if (!with_link.take(i)) continue;
+    Selection other = completed(with_link, kept, all);
+    if (with_branches) {
+      Selection anew = completed(with_link, best.without_tubes_of(i, kept), all);
+      if (anew.weight() > other.weight()) other = std::move(anew);
+    }
+    if (other.weight() <= best.weight() + rounding) continue;
+    best = std::move(other);
+    kept = heaviest_first(best.taken());
+    in_vain = 0;
+  }
+  return best;
+}
+
+// The weakest link of each impossible tube.
+std::vector<std::size_t> impossible_links(const std::vector<std::size_t>& matching, Selection possible) {
+  std::vector<std::size_t> impossible;
+  for (const std::size_t i : matching) {
+    if (!possible.take(i)) impossible.push_back(i);
+  }
+  return impossible;
+}
+
+// A maximum-weight matching of the ends with only possible tubes: drops the links that make a tube
+// impossible, and matches the rest again.
+std::vector<std::size_t> possible_matching(const Candidates& candidates, const Selection& none) {
+  std::vector<WeightedPair> pairs = candidates.pairs;
+  for (;;) {
+    std::vector<std::size_t> matching = heaviest_matching(candidates.vertices, pairs);
+    const std::vector<std::size_t> impossible = impossible_links(matching, none);
+    if (impossible.empty()) return matching;
+    for (const std::size_t i : impossible) pairs[i].weight = 0;
+  }
+}
+
+// The graph has a vertex for each end, and one for the junction that each end may lead to.
+void add_graph(Candidates& candidates) {
+  std::vector<std::size_t> ends_before{0};
+  for (const Fragment& fragment : candidates.fragments)
+    ends_before.push_back(ends_before.back() + fragment.ends.size());
+  const std::size_t ends = ends_before.back();
+  candidates.vertices = 2 * ends;
+  candidates.pairs.reserve(candidates.links.size());
+  for (const Link& link : candidates.links) {
+    const std::size_t from = ends_before[link.fragment] + link.end;
+    const bool leads_to_junction = link.kind == LinkKind::junction;
+    const std::size_t to = leads_to_junction ? ends + from : ends_before[link.to.fragment] + *link.to.end;
+    candidates.pairs.push_back({from, to, link.weight});
+  }
+}
+
+void add_numbers(Candidates& candidates) {
+  std::mt19937_64 random;
+  for (std::size_t i = 0; i < candidates.links.size(); ++i) candidates.numbers.push_back(random());
+}
+
+void add_parts(Candidates& candidates) {
+  candidates.alone.clear();
+  for (std::size_t i = 0; i < candidates.fragments.size(); ++i) {
+    const Fragment& fragment = candidates.fragments[i];
+    const int ends = static_cast<int>(fragment.ends.size());
+    double hidden = 0;
+    for (const FragmentEnd& end : fragment.ends) hidden += end.hidden;
+    Part part{.length = fragment.length, .ends = ends, .links = 0, .hidden = hidden, .cost = 0};
+    if (!candidates.kind.branches()) {
+      part.cost = cost_of_length(candidates, part);
+      if (has_shape_costs(candidates)) part.cost += shape_cost(candidates, {i}, {});
+    } else if (ends <= candidates.tube_ends_max) {  // with surplus ends it stays a tube by itself, at no cost
+      part.cost = shape_cost(candidates, {i}, {});
+    }
+    candidates.alone.push_back(part);
+  }
+}
+
+// What the whole chains among the chosen look like. Without a known length, none is known to be whole.
+TubeShapes shapes_of_whole_chains(const Candidates& candidates, const std::vector<std::size_t>& chosen) {
+  constexpr double nearly = 0.05;  // of the length
+  const TubeKind& kind = candidates.kind;
+  std::vector<CentrePath> whole;
+  if (kind.length_min <= 0) return {};
+  for (const auto& members : linked_fragments(candidates.fragments.size(), candidates.links, chosen)) {
+    CentrePath path = centre_path(candidates, members, chosen);
+    const double length = path_length(path);
+    if (length > (1 - nearly) * kind.length_min && length < (1 + nearly) * kind.length())
+      whole.push_back(std::move(path));
+  }
+  return {whole, kind.radius};
+}
+
+// The likeliest combination of links, ascending.
+std::vector<std::size_t> likeliest(const Candidates& candidates) {
+  std::vector<std::size_t> all(candidates.links.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const bool with_branches = candidates.kind.branches();
+  Selection::Costs costs;
+  const Selection none(candidates, costs);
+  Selection selection = none;
+  // Matching pairs ends, so it cannot represent a junction of three ends.
+  if (!with_branches) selection.take_possible(possible_matching(candidates, none));
+  selection.take_possible(all);
+  std::vector<std::size_t> chosen = exchanged(none, std::move(selection), all, with_branches).taken();
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
+                                      const TubeKind& kind, const LinkSettings& settings) {
+  Candidates candidates{fragments, links, kind, settings};
+  add_graph(candidates);
+  add_numbers(candidates);
+  add_parts(candidates);
+  std::vector<std::size_t> chosen = likeliest(candidates);
+  if (kind.branches()) return chosen;
+  candidates.shapes = shapes_of_whole_chains(candidates, chosen);
+  if (!candidates.shapes.are_known()) return chosen;
+  add_parts(candidates);
+  return likeliest(candidates);
+}
+
+std::vector<std::vector<std::size_t>> linked_fragments(std::size_t fragments, const std::vector<Link>& links,
+                                                       const std::vector<std::size_t>& chosen) {
+  boost::disjoint_sets_with_storage<> tubes(fragments);
+  for (const std::size_t i : chosen) tubes.union_set(links[i].fragment, links[i].to.fragment);
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t i = 0; i < fragments; ++i) members[tubes.find_set(i)].push_back(i);
+  std::vector<std::vector<std::size_t>> result;
+  result.reserve(members.size());
+  for (auto& [tube, list] : members) result.push_back(std::move(list));
+  std::ranges::sort(result);
+  return result;
+}
+
+}  // namespace tanglebin

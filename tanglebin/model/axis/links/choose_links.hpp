@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tanglebin/model/axis/fragments/fragments.hpp"
+#include "tanglebin/model/axis/links/links.hpp"
+#include "tanglebin/model/scene/known_scene.hpp"
+
+namespace tanglebin {
+
+/// Chooses the likeliest combination of the links from find_links() in which every tube is open, no longer
+/// than known, and has no surplus ends. For chains this is the maximum-weight matching of the ends, for trees
+/// the heaviest links one after the other. Then links are exchanged while that increases the sum of the
+/// weights, less the costs of the tubes' shapes. Returns ascending indices.
+std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
+                                      const TubeKind& kind, const LinkSettings& settings);
+
+/// The fragments of each tube that the chosen links form. Each list is ascending; the tubes are sorted by
+/// their first fragment.
+std::vector<std::vector<std::size_t>> linked_fragments(std::size_t fragments, const std::vector<Link>& links,
+                                                       const std::vector<std::size_t>& chosen);
+
+}  // namespace tanglebin

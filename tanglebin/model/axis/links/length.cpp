@@ -1,0 +1,171 @@
+#include "tanglebin/model/axis/links/length.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "tanglebin/model/axis/links/choose_links.hpp"
+#include "tanglebin/model/axis/links/links.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A chain of fragments.
+struct Chain {
+  double length;  ///< m
+  bool is_whole;  ///< seen from end to end
+  bool is_cut;    ///< by the border of the image
+};
+
+bool leaves_view(const FragmentEnd& end, double radius, const RangeImage& seen) {
+  return !seen.covers(end.position + 2 * radius * end.outward, radius);
+}
+
+// The chains that the chosen links make of the fragments, the shortest first.
+std::vector<Chain> chains_of(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
+                             const std::vector<std::size_t>& chosen, double radius, const RangeImage& seen) {
+  std::set<std::pair<std::size_t, std::size_t>> joined;
+  for (const std::size_t i : chosen) {
+    joined.insert({links[i].fragment, links[i].end});
+    joined.insert({links[i].to.fragment, *links[i].to.end});
+  }
+  std::vector<double> gaps(fragments.size());
+  for (const std::size_t i : chosen) gaps[links[i].fragment] += links[i].gap;
+  std::vector<Chain> chains;
+  for (const std::vector<std::size_t>& members : linked_fragments(fragments.size(), links, chosen)) {
+    Chain chain{.length = 0, .is_whole = true, .is_cut = false};
+    for (const std::size_t member : members) {
+      const Fragment& fragment = fragments[member];
+      chain.length += fragment.length + gaps[member];
+      for (std::size_t end = 0; end < fragment.ends.size(); ++end) {
+        chain.length += (fragment.ends[end].position - fragment.nodes[fragment.ends[end].node]).norm();
+        if (joined.contains({member, end})) continue;
+        if (fragment.ends[end].hidden > 0) chain.is_whole = false;
+        if (leaves_view(fragment.ends[end], radius, seen)) chain.is_cut = true;
+      }
+    }
+    chains.push_back(chain);
+  }
+  std::ranges::sort(chains, {}, &Chain::length);
+  return chains;
+}
+
+// Those of the likeliest links, if no chain is longer than this, m.
+std::vector<Chain> chains_up_to(double longest, TubeKind kind, const std::vector<Fragment>& fragments,
+                                const RangeImage& seen, const LinkSettings& settings) {
+  kind.segments[0].length = longest;
+  const std::vector<Link> links = find_links(fragments, seen, kind, settings);
+  return chains_of(fragments, links, choose_links(fragments, links, kind, settings), kind.radius, seen);
+}
+
+std::vector<Chain> whole(std::vector<Chain> chains) {
+  std::erase_if(chains, [](const Chain& chain) { return !chain.is_whole; });
+  return chains;
+}
+
+std::vector<Chain> uncut(std::vector<Chain> chains) {
+  std::erase_if(chains, &Chain::is_cut);
+  return chains;
+}
+
+double sum_of_lengths(std::span<const Chain> chains) {
+  return std::accumulate(chains.begin(), chains.end(), 0.0,
+                         [](double sum, const Chain& chain) { return sum + chain.length; });
+}
+
+// Of chains in ascending order, those within a few percent of each other that have the largest sum.
+std::span<const Chain> of_one_length(std::span<const Chain> chains) {
+  constexpr double tolerance = 0.05;
+  std::span<const Chain> best;
+  for (std::size_t first = 0; first < chains.size(); ++first) {
+    const auto [begin, end] = std::ranges::equal_range(chains, 0, {}, [&](const Chain& chain) {
+      if (chain.length < chains[first].length) return -1;
+      return chain.length <= chains[first].length * (1 + tolerance) ? 0 : 1;
+    });
+    const std::span<const Chain> alike(begin, end);
+    if (sum_of_lengths(alike) > sum_of_lengths(best)) best = alike;
+  }
+  return best;
+}
+
+/// The length that most of a scan's chains have.
+struct CommonLength {
+  double length = 0;       ///< m; 0 if there is none
+  std::size_t chains = 0;  ///< that have it
+};
+
+constexpr std::size_t enough = 3;  // chains that agree
+
+// That of the fragments which are whole chains, if enough agree. Otherwise that of linked chains: too low a
+// bound breaks them at it, and at lengths that differ; any other leaves those that most links make at theirs.
+CommonLength common_length(const TubeKind& kind, const std::vector<Fragment>& fragments,
+                           const RangeImage& seen, double longest, const LinkSettings& settings) {
+  const std::vector<Chain> alone = whole(chains_of(fragments, {}, {}, kind.radius, seen));
+  const std::span<const Chain> alike_alone = of_one_length(alone);
+  if (alike_alone.size() >= enough && length_max(alike_alone.back().length, settings) >= longest)
+    return {alike_alone[alike_alone.size() / 2].length, alike_alone.size()};
+
+  constexpr std::array bounds = {1.25, 1.6, 2.05, 2.6};  // against the longest fragment
+  constexpr double at_bound = 0.97;
+  constexpr double some = 0.3;  // of the length of all chains
+  constexpr double most = 0.5;
+  CommonLength common;
+  double best_share = some;
+  for (const double bound : bounds) {
+    const std::vector<Chain> chains = chains_up_to(bound * longest, kind, fragments, seen, settings);
+    const std::vector<Chain> may_be_whole = uncut(chains);
+    const std::span<const Chain> alike = of_one_length(may_be_whole);
+    const double share = sum_of_lengths(alike) / sum_of_lengths(chains);
+    if (alike.empty() || share < best_share || alike.back().length > at_bound * bound * longest) continue;
+    common = {alike.back().length, alike.size()};
+    best_share = share;
+    if (share > most) break;
+  }
+  return common;
+}
+
+// A known length, unless it is too short for what is seen.
+TubeKind with_checked_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
+                             double longest, const LinkSettings& settings) {
+  if (longest <= length_max(kind.length(), settings)) return kind;
+  TubeKind unknown = kind;
+  unknown.length_min = 0;
+  const CommonLength common = common_length(unknown, fragments, seen, longest, settings);
+  if (common.chains >= enough && common.length > length_max(kind.length(), settings))
+    kind.segments[0].length = common.length;
+  return kind;
+}
+
+TubeKind with_found_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
+                           double longest, const LinkSettings& settings) {
+  constexpr double hidden = 2;  // the length of a chain, against the longest fragment
+  const CommonLength common = common_length(kind, fragments, seen, longest, settings);
+  if (common.chains > 0) {
+    kind.segments[0].length = std::max(common.length, longest);
+    if (common.chains >= enough) kind.length_min = kind.segments[0].length;
+    return kind;
+  }
+  const std::vector<Chain> seen_whole =
+      whole(chains_up_to(hidden * longest, kind, fragments, seen, settings));
+  kind.segments[0].length =
+      seen_whole.empty() ? hidden * longest : std::max(seen_whole.back().length, longest);
+  return kind;
+}
+
+}  // namespace
+
+TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
+                     const LinkSettings& settings) {
+  if (kind.branches() || fragments.empty()) return kind;
+  const double longest = std::ranges::max_element(fragments, {}, &Fragment::length)->length;
+  const auto with = kind.length_is_known() ? with_checked_length : with_found_length;
+  return with(std::move(kind), fragments, seen, longest, settings);
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,287 @@
+#include "tanglebin/model/axis/links/links.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "tanglebin/model/scene/angle.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double shortest = 0.16;  // radii, added to gaps before their logarithm
+
+double rate(double angle, double gap) {
+  constexpr double least = 2;  // radii
+  return angle * angle / (gap + least);
+}
+
+double seen_to_end(const FragmentEnd& end) {
+  return end.hidden == 0 ? 1 : 0;
+}
+
+double hidden_beyond(const FragmentEnd& end, double radius) {
+  return std::log1p(end.hidden / radius);
+}
+
+LinkFeatures features_of(const FragmentEnd& first, const FragmentEnd& second, double radius) {
+  const Vector3d way = second.position - first.position;
+  const Vector3d inward = -second.outward;
+  const double gap = way.norm() / radius;
+  const double turn = angle_between(first.outward, inward);
+  const double angle = gap < 1 ? turn : angle_between(first.outward, way) + angle_between(inward, way);
+  return {1,
+          std::log(gap + shortest),
+          gap,
+          angle,
+          angle * angle,
+          turn,
+          0,
+          0,
+          rate(angle, gap),
+          rate(turn, gap),
+          seen_to_end(first) + seen_to_end(second),
+          hidden_beyond(first, radius) + hidden_beyond(second, radius)};
+}
+
+/// A possible junction of a fragment: at a node of its centre line, or beyond an end.
+struct JunctionPlace {
+  LinkTarget target;
+  double beyond;  // m
+};
+
+LinkFeatures features_of(const FragmentEnd& end, const JunctionPlace& junction, double radius) {
+  const Vector3d way = junction.target.position - end.position;
+  const double gap = way.norm() / radius;
+  const double angle = angle_between(end.outward, way);
+  return {1,
+          std::log(gap + shortest),
+          gap,
+          angle,
+          angle * angle,
+          junction.beyond / radius,
+          0,
+          0,
+          rate(angle, gap),
+          0,
+          seen_to_end(end),
+          hidden_beyond(end, radius)};
+}
+
+std::vector<JunctionPlace> junction_places(const std::vector<Fragment>& fragments, std::size_t of,
+                                           double radius, double beyond_max) {
+  const Fragment& fragment = fragments[of];
+  std::vector<JunctionPlace> places;
+  for (std::size_t node = 0; node < fragment.nodes.size(); ++node) {
+    places.push_back({{of, node, std::nullopt, fragment.nodes[node]}, 0});
+  }
+  constexpr double step = 0.4;  // radii
+  const int steps = static_cast<int>(beyond_max / step);
+  for (std::size_t i = 0; i < fragment.ends.size(); ++i) {
+    const FragmentEnd& end = fragment.ends[i];
+    for (int j = 1; j <= steps; ++j) {
+      const double beyond = j * step * radius;
+      places.push_back({{of, end.node, i, end.position + beyond * end.outward}, beyond});
+    }
+  }
+  return places;
+}
+
+// Indices of features.
+constexpr std::size_t alpha = 3;
+constexpr std::size_t seen_empty = 6;
+constexpr std::size_t obstruction = 7;
+
+double prior(LinkKind kind, const LinkSettings& settings) {
+  switch (kind) {
+    case LinkKind::chain_ends:
+      return settings.chain_prior;
+    case LinkKind::tree_ends:
+      return settings.tree_prior;
+    case LinkKind::junction:
+      return settings.junction_prior;
+  }
+  return 0;
+}
+
+double weight_of(const Link& link, const LinkSettings& settings) {
+  const LinkFeatures& weights = settings.weights.of(link.kind);
+  return prior(link.kind, settings) + ends_taken(link.kind) * std::inner_product(weights.begin(),
+                                                                                 weights.end(),
+                                                                                 link.features.begin(), 0.0);
+}
+
+// The cubic Hermite curve from one end to the other, at t in [0, 1].
+Vector3d on_curve(const FragmentEnd& first, const FragmentEnd& second, double t) {
+  const double gap = (second.position - first.position).norm();
+  const double s = 1 - t;
+  return (1 + 2 * t) * s * s * first.position + t * s * s * gap * first.outward +
+         t * t * (3 - 2 * t) * second.position + t * t * s * gap * second.outward;
+}
+
+/// A way between two ends: places on it, at even steps, without the ends.
+using Way = std::vector<Vector3d>;
+
+// The way through place(t), t in [0, 1], over a gap, m.
+template <typename Place>
+Way way_over(double gap, double radius, const Place& place) {
+  constexpr double step = 0.4;  // radii
+  const int places = std::clamp(static_cast<int>(gap / (step * radius)) - 1, 1, 16);
+  Way way;
+  for (int i = 1; i <= places; ++i) way.push_back(place(static_cast<double>(i) / (places + 1)));
+  return way;
+}
+
+// The mean of a measure over the places on a way.
+template <typename Measure>
+double mean_on(const Way& way, const Measure& measure) {
+  double sum = 0;
+  for (const Vector3d& place : way) sum += measure(place);
+  return sum / static_cast<double>(way.size());
+}
+
+/// Finds the links between two fragments.
+class LinkFinder {
+public:
+  LinkFinder(const std::vector<Fragment>& fragments, const RangeImage& seen, const TubeKind& kind,
+             const LinkSettings& settings, const std::vector<Ball>& others)
+      : fragments_(fragments),
+        seen_(seen),
+        kind_(kind),
+        settings_(settings),
+        length_max_(length_max(kind.length(), settings)),
+        obstacles_(fragments, kind.radius, others) {
+    if (!kind.branches()) return;
+    for (std::size_t i = 0; i < fragments.size(); ++i) {
+      places_.push_back(junction_places(fragments, i, kind.radius, settings.beyond_max));
+    }
+  }
+
+  void between_ends(std::size_t first, std::size_t second) {
+    const Fragment& f = fragments_[first];
+    const Fragment& g = fragments_[second];
+    for (std::size_t i = 0; i < f.ends.size(); ++i) {
+      for (std::size_t j = 0; j < g.ends.size(); ++j) {
+        const double gap = (g.ends[j].position - f.ends[i].position).norm();
+        if (!may_span(gap, f, g)) continue;
+        take_if_likely({kind_.branches() ? LinkKind::tree_ends : LinkKind::chain_ends,
+                        first,
+                        i,
+                        {second, g.ends[j].node, j, g.ends[j].position},
+                        gap,
+                        features_of(f.ends[i], g.ends[j], kind_.radius)},
+                       f.ends[i], g.ends[j]);
+      }
+    }
+  }
+
+  // Links to the cheapest junction of the other fragment, with the paper's cost of a join (Section 4).
+  void to_junction(std::size_t first, std::size_t second) {
+    const Fragment& f = fragments_[first];
+    const double metres_for_a_radian = 9 * kind_.radius;
+    for (std::size_t i = 0; i < f.ends.size(); ++i) {
+      const FragmentEnd& end = f.ends[i];
+      const auto cost = [&](const JunctionPlace& place) {
+        const Vector3d way = place.target.position - end.position;
+        return way.norm() + place.beyond + metres_for_a_radian * angle_between(end.outward, way);
+      };
+      const JunctionPlace& cheapest = *std::ranges::min_element(places_[second], {}, cost);
+      const Vector3d way_back = end.position - cheapest.target.position;
+      if (!may_span(way_back.norm(), f, fragments_[second])) continue;
+      take_if_likely({LinkKind::junction, first, i, cheapest.target, way_back.norm(),
+                      features_of(end, cheapest, kind_.radius)},
+                     end, {cheapest.target.node, cheapest.target.position, way_back.normalized()});
+    }
+  }
+
+  std::vector<Link> found() {
+    std::ranges::stable_sort(links_, std::greater<>(), &Link::weight);
+    return std::move(links_);
+  }
+
+private:
+  bool may_span(double gap, const Fragment& first, const Fragment& second) const {
+    return first.length + gap + second.length <= length_max_;
+  }
+
+  // Takes the link by the freer of its ways. What lies on a way takes the longest to find out.
+  void take_if_likely(const Link& link, const FragmentEnd& from, const FragmentEnd& to) {
+    if (link.features[alpha] > settings_.angle_max || weight_of(link, settings_) <= 0) return;
+    const Vector3d gap = to.position - from.position;
+    const auto link_through = [&](const auto& place) {
+      return link_by(way_over(gap.norm(), kind_.radius, place), link, from, to);
+    };
+    std::optional<Link> freest = link_through([&](double t) -> Vector3d { return from.position + t * gap; });
+    if (!freest || hindrances(*freest) != std::pair(0.0, 0.0)) {
+      const std::optional<Link> curved = link_through([&](double t) { return on_curve(from, to, t); });
+      if (curved && (!freest || hindrances(*curved) < hindrances(*freest))) freest = curved;
+    }
+    if (freest) links_.push_back(*freest);
+  }
+
+  // The link with the features of a way; none if it is not likely by that way.
+  std::optional<Link> link_by(const Way& way, Link link, const FragmentEnd& from,
+                              const FragmentEnd& to) const {
+    link.features[seen_empty] =
+        mean_on(way, [&](const Vector3d& axis) { return seen_.shows_empty(axis, kind_.radius) ? 1.0 : 0.0; });
+    if (link.features[seen_empty] > settings_.seen_empty_max || weight_of(link, settings_) <= 0)
+      return std::nullopt;
+    link.features[obstruction] = obstruction_of(way, link, from, to);
+    link.weight = weight_of(link, settings_);
+    return link.weight > 0 ? std::optional(link) : std::nullopt;
+  }
+
+  // What was seen to be empty counts first: there is no tube. The weights do not choose the way, so the
+  // weights learned do not depend on those before.
+  static std::pair<double, double> hindrances(const Link& link) {
+    return {link.features[seen_empty], link.features[obstruction]};
+  }
+
+  // Ignores what is near the ends: other pieces of the same tube, and overshoots of a neighbour's centre
+  // line.
+  double obstruction_of(const Way& way, const Link& link, const FragmentEnd& from,
+                        const FragmentEnd& to) const {
+    const double diameter = 2 * kind_.radius;
+    return std::sqrt(mean_on(way, [&](const Vector3d& axis) {
+      const bool is_near_an_end =
+          (axis - from.position).norm() < diameter || (axis - to.position).norm() < diameter;
+      return is_near_an_end ? 0 : obstacles_.overlap(axis, link.fragment, link.to.fragment);
+    }));
+  }
+
+  const std::vector<Fragment>& fragments_;
+  const RangeImage& seen_;
+  const TubeKind& kind_;
+  const LinkSettings& settings_;
+  double length_max_;  // m
+  Obstacles obstacles_;
+  std::vector<std::vector<JunctionPlace>> places_;  // of each fragment
+  std::vector<Link> links_;
+};
+
+}  // namespace
+
+double length_max(double length, const LinkSettings& settings) {
+  return length * (1 + settings.length_tolerance);
+}
+
+std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
+                             const TubeKind& kind, const LinkSettings& settings,
+                             const std::vector<Ball>& others) {
+  LinkFinder finder(fragments, seen, kind, settings, others);
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    for (std::size_t j = 0; j < fragments.size(); ++j) {
+      if (i < j) finder.between_ends(i, j);
+      if (i != j && kind.branches()) finder.to_junction(i, j);
+    }
+  }
+  return finder.found();
+}
+
+}  // namespace tanglebin

@@ -1,0 +1,62 @@
+#include "tanglebin/files/json_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+#include "tests/support/complaint.hpp"
+
+namespace tanglebin {
+namespace {
+
+using test::complaint;
+
+std::string nested(std::size_t levels, const std::string& open, const std::string& close) {
+  std::string text;
+  for (std::size_t i = 0; i < levels; ++i) text += open;
+  text += "1";
+  for (std::size_t i = 0; i < levels; ++i) text += close;
+  return text;
+}
+
+TEST(ParseJson, IsAnyJsonOrDiscarded) {
+  EXPECT_EQ(parse_json(R"({"a":[1,2.5,null]})", {}).dump(), R"({"a":[1,2.5,null]})");
+  EXPECT_TRUE(parse_json("{\"a\":", {}).is_discarded());
+  EXPECT_TRUE(parse_json("", {}).is_discarded());
+}
+
+TEST(ParseJson, MayBeNestedSixtyFourDeep) {
+  EXPECT_EQ(parse_json(nested(64, "[", "]"), {}).dump(), nested(64, "[", "]"));
+  EXPECT_EQ(parse_json(nested(64, R"({"a":)", "}"), {}).dump(), nested(64, R"({"a":)", "}"));
+}
+
+TEST(ParseJson, NestedDeeperIsAnErrorHoweverDeepItIs) {
+  for (const std::size_t levels : {65U, 400000U}) {
+    for (const auto& text : {nested(levels, "[", "]"), nested(levels, R"({"a":)", "}"),
+                             nested(levels, R"({"a":[)", "]}"), nested(levels, "[", "")}) {
+      EXPECT_EQ(complaint([&] {
+                  parse_json(text, {"dataset.json", 3, ""});
+                }),
+                "dataset.json:3: found JSON nested too deep, expected at most 64 levels");
+    }
+  }
+}
+
+TEST(JsonRecord, TextThatIsMissingOrNullIsNone) {
+  const JsonRecord record(R"({"scanner":"left","dataset":null,"cases":3})", "experiment.json", 2);
+  EXPECT_EQ(record.text_if_there("scanner"), "left");
+  EXPECT_EQ(record.text_if_there("dataset"), std::nullopt);
+  EXPECT_EQ(record.text_if_there("digest"), std::nullopt);
+  EXPECT_EQ(complaint([&] { record.text_if_there("cases"); }),
+            "experiment.json:2: cases: found '3', expected text");
+}
+
+TEST(JsonRecord, NestedTooDeepIsAnErrorThatNamesTheFile) {
+  const std::string text = "{\"a\":" + nested(400000, "[", "]") + "}";
+  EXPECT_EQ(complaint([&] { JsonRecord(text, "experiment.json", 0); }),
+            "experiment.json: found JSON nested too deep, expected at most 64 levels");
+}
+
+}  // namespace
+}  // namespace tanglebin

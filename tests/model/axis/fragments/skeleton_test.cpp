@@ -1,0 +1,188 @@
+#include "tanglebin/model/axis/fragments/skeleton.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "tanglebin/base/random.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr double voxel = 0.004;
+constexpr double step = 0.005;
+constexpr double branch_min = 0.02;
+
+void add_line(std::vector<Vector3f>& points, const Vector3d& from, const Vector3d& to) {
+  constexpr int count = 400;
+  for (int i = 0; i <= count; ++i) points.push_back((from + (to - from) * i / count).cast<float>());
+}
+
+// Of votes, m.
+Vector3f scatter(Rng& rng) {
+  const auto offset = [&] { return static_cast<float>(uniform_real(rng, -0.001, 0.001)); };
+  return {offset(), offset(), offset()};
+}
+
+double length_of(const Skeleton& skeleton) {
+  double length = 0;
+  for (std::size_t i = 1; i < skeleton.nodes.size(); ++i) {
+    length += (skeleton.nodes[i] - skeleton.nodes[skeleton.parents[i]]).norm();
+  }
+  return length;
+}
+
+std::size_t leaves_of(const Skeleton& skeleton) {
+  std::vector<int> degree(skeleton.nodes.size());
+  for (std::size_t i = 1; i < skeleton.nodes.size(); ++i) {
+    ++degree[i];
+    ++degree[skeleton.parents[i]];
+  }
+  return static_cast<std::size_t>(std::ranges::count(degree, 1));
+}
+
+TEST(Skeletons, FollowACurveFromEndToEnd) {
+  std::vector<Vector3f> half_circle;
+  constexpr double radius = 0.1;
+  for (int i = 0; i <= 1000; ++i) {
+    const double angle = std::numbers::pi * i / 1000;
+    half_circle.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.05);
+  }
+  const std::vector<Skeleton> found = find_skeletons(half_circle, voxel, step, branch_min);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].points.size(), half_circle.size());
+  EXPECT_EQ(leaves_of(found[0]), 2U);
+  // The first and the last node are half a step from the ends.
+  EXPECT_NEAR(length_of(found[0]), std::numbers::pi * radius - step, 0.006);
+  for (const Vector3d& node : found[0].nodes) EXPECT_NEAR(node.head<2>().norm(), radius, 0.0005);
+}
+
+TEST(Skeletons, OfSeparateCurvesAreSeparate) {
+  std::vector<Vector3f> points;
+  add_line(points, {0, 0, 0}, {0.1, 0, 0});
+  add_line(points, {0, 0.012, 0}, {0.1, 0.012, 0});
+  points.emplace_back(Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+  const std::vector<Skeleton> found = find_skeletons(points, voxel, step, branch_min);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].points.size() + found[1].points.size(), points.size() - 1);
+}
+
+TEST(Skeletons, HaveTheBranchesThatAreLongEnough) {
+  std::vector<Vector3f> points;
+  add_line(points, {-0.1, 0, 0}, {0.1, 0, 0});
+  add_line(points, {0, 0, 0}, {0, 0.05, 0});        // a branch
+  add_line(points, {0.05, 0, 0}, {0.05, 0, 0.01});  // too short for one
+  const std::vector<Skeleton> found = find_skeletons(points, voxel, step, branch_min);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(leaves_of(found[0]), 3U);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(leaves_of(find_skeletons(points, voxel, step, infinity).at(0)), 2U);
+}
+
+TEST(Skeletons, BranchAsOftenAsTheCurvesHoweverTheseLie) {
+  const Vector3d axis = Vector3d(1, 2, 3).normalized();
+  Rng rng;
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, axis);
+    std::vector<Vector3f> points;
+    for (const Vector3d& end : {Vector3d(-0.1, 0, 0), Vector3d(0.08, 0.04, 0), Vector3d(0.08, -0.04, 0)})
+      add_line(points, Vector3d::Zero(), turn * end);
+    for (Vector3f& point : points) point += scatter(rng);
+    const std::vector<Skeleton> found = find_skeletons(points, voxel, step, branch_min);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(leaves_of(found[0]), 3U) << degrees << " degrees";
+  }
+}
+
+TEST(Skeletons, OfAPointAreOneNode) {
+  const std::vector<Skeleton> found = find_skeletons({{1, 2, 3}, {1, 2, 3}}, voxel, step, branch_min);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].nodes, std::vector<Vector3d>{Vector3d(1, 2, 3)});
+  EXPECT_TRUE(find_skeletons({}, voxel, step, branch_min).empty());
+}
+
+/// Votes with the normals that led to them.
+struct Votes {
+  std::vector<Vector3f> points;
+  std::vector<Vector3f> normals;
+
+  // `count` votes along a line, seen from all sides above.
+  void add_tube(const Vector3d& from, const Vector3d& to, int count) {
+    for (int i = 0; i < count; ++i) {
+      points.push_back((from + (to - from) * i / count).cast<float>());
+      const double angle = std::numbers::pi * (i % 7) / 6;
+      normals.push_back(Vector3d(0, std::cos(angle), std::sin(angle)).cast<float>());
+    }
+  }
+};
+
+constexpr CutSettings cut{.branch_min = branch_min,
+                          .spread_max = 0.006,
+                          .share_min = 0.85,
+                          .weak_max = 0,
+                          .parallel_max = 0.96,
+                          .may_branch = false};
+
+std::vector<Skeleton> pieces_of(const Votes& votes, const CutSettings& settings = cut) {
+  return find_skeletons(votes.points, votes.normals, voxel, step, settings);
+}
+
+TEST(Skeletons, OfTwoTubesAreCutAtAWeakBridge) {
+  Votes votes;
+  votes.add_tube({-0.1, 0, 0}, {0.1, 0, 0}, 4000);
+  votes.add_tube({0, -0.1, 0.03}, {0, 0.1, 0.03}, 4000);
+  const std::size_t of_tubes = votes.points.size();
+  votes.add_tube({0, 0, 0}, {0, 0, 0.03}, 30);  // a ramp from one to the other
+  const std::vector<Skeleton> found = pieces_of(votes);
+  ASSERT_EQ(found.size(), 2U);
+  for (const Skeleton& skeleton : found) {
+    EXPECT_EQ(leaves_of(skeleton), 2U);
+    EXPECT_NEAR(length_of(skeleton), 0.2, 0.01);
+    EXPECT_NEAR(static_cast<double>(skeleton.points.size()), 4000, 100);
+  }
+  EXPECT_LE(found[0].points.size() + found[1].points.size(), of_tubes + 5);
+}
+
+TEST(Skeletons, OfAChainAreCutWhereItForks) {
+  Votes votes;
+  votes.add_tube({-0.1, 0, 0}, {0.1, 0, 0}, 4000);
+  votes.add_tube({0, 0, 0}, {0, 0.1, 0}, 2000);
+  const std::vector<Skeleton> found = pieces_of(votes);
+  ASSERT_EQ(found.size(), 3U);
+  for (const Skeleton& skeleton : found) EXPECT_NEAR(length_of(skeleton), 0.1, 0.02);
+  CutSettings tree = cut;
+  tree.may_branch = true;
+  EXPECT_EQ(pieces_of(votes, tree).size(), 1U);
+}
+
+TEST(Skeletons, AreNotCutOutOfAPlane) {
+  Votes votes;
+  Rng rng(5);
+  for (int i = 0; i < 20000; ++i) {
+    votes.points.push_back(Vector3d(uniform_real(rng, 0, 0.2), uniform_real(rng, 0, 0.1), 0).cast<float>());
+    votes.normals.emplace_back(0, 0, 1);
+  }
+  EXPECT_TRUE(pieces_of(votes).empty());
+}
+
+TEST(Skeletons, LeaveOutWeakVoxelsFromTheStart) {
+  Votes votes;
+  votes.add_tube({0, 0, 0}, {0.1, 0, 0}, 4000);
+  votes.add_tube({0.1, 0, 0}, {0.13, 0, 0.03}, 40);  // what a ramp adds to the end
+  ASSERT_EQ(pieces_of(votes).size(), 1U);
+  EXPECT_GT(length_of(pieces_of(votes)[0]), 0.13);
+  CutSettings strong = cut;
+  strong.weak_max = 0.1;
+  ASSERT_EQ(pieces_of(votes, strong).size(), 1U);
+  EXPECT_NEAR(length_of(pieces_of(votes, strong)[0]), 0.1, 0.01);
+}
+
+}  // namespace
+}  // namespace tanglebin

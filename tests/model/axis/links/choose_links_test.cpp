@@ -1,0 +1,176 @@
+#include "tanglebin/model/axis/links/choose_links.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "tests/model/axis/fragments/straight_fragment.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+using test::straight_fragment;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+TubeKind chain_of(double length) {
+  return {.segments = {{1, 2, length}}};
+}
+
+TubeKind tree_of(const SegmentTree& segments) {
+  return {.segments = segments};
+}
+
+// Of those that there are where nothing was seen, so that nothing was seen to be empty.
+std::vector<Link> chosen_of(const std::vector<Fragment>& fragments, const TubeKind& kind) {
+  const std::vector<Link> links = find_links(fragments, RangeImage({}, camera_preset("paper")), kind, {});
+  std::vector<Link> chosen;
+  for (const std::size_t i : choose_links(fragments, links, kind, {})) chosen.push_back(links[i]);
+  return chosen;
+}
+
+// Two of the three are a tube, but not all of them.
+TEST(ChooseLinks, PreferTheStraightWay) {
+  const std::vector<Link> chosen = chosen_of(
+      {straight_fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}), straight_fragment({0, 0, 0.05}, {0.15, 0, 0.05}),
+       straight_fragment({0, 0.05, 0.05}, {0, 0.18, 0.05})},
+      chain_of(0.36));
+  ASSERT_THAT(chosen, SizeIs(1));
+  EXPECT_EQ(chosen.front().fragment, 0U);
+  EXPECT_EQ(chosen.front().to.fragment, 1U);
+}
+
+// Four pieces in a row, of which any two neighbours would join, but three are too long together.
+TEST(ChooseLinks, GiveUpTheWeakestWhereTheTubeWouldBecomeTooLong) {
+  const std::vector<Link> chosen = chosen_of({straight_fragment({-0.25, 0, 0.05}, {-0.15, 0, 0.05}),
+                                              straight_fragment({-0.13, 0, 0.05}, {-0.03, 0, 0.05}),
+                                              straight_fragment({0.02, 0, 0.05}, {0.12, 0, 0.05})},
+                                             chain_of(0.24));
+  ASSERT_THAT(chosen, SizeIs(1));
+  EXPECT_NEAR(chosen.front().gap, 0.02, 1e-12);  // not the gap of 5 cm
+}
+
+// Four pieces in a row, of which two make a tube: the heaviest link, between the two in the middle, would
+// leave the outer ones alone.
+TEST(ChooseLinks, AreExchangedForOnesThatAreHeavierTogether) {
+  const std::vector<Fragment> row = {straight_fragment({-0.23, 0, 0.05}, {-0.13, 0, 0.05}),
+                                     straight_fragment({-0.11, 0, 0.05}, {-0.01, 0, 0.05}),
+                                     straight_fragment({0.005, 0, 0.05}, {0.105, 0, 0.05}),
+                                     straight_fragment({0.125, 0, 0.05}, {0.225, 0, 0.05})};
+  for (const TubeKind& kind : {chain_of(0.24), tree_of({{1, 2, 0.08}, {1, 3, 0.08}, {1, 4, 0.08}})}) {
+    const std::vector<Link> chosen = chosen_of(row, kind);
+    ASSERT_THAT(chosen, SizeIs(2)) << kind.segments.size();
+    for (const Link& link : chosen) EXPECT_NEAR(link.gap, 0.02, 1e-12);
+  }
+}
+
+// Two pieces that would be a chain of 40 cm, seen from end to end: it is no tube of 80 cm.
+TEST(ChooseLinks, MakeNoTubeThatLacksWhatWouldHaveBeenSeen) {
+  std::vector<Fragment> pieces = {straight_fragment({-0.15, 0, 0.05}, {-0.05, 0, 0.05}),
+                                  straight_fragment({0.11, 0.1, 0.05}, {0.15, 0.19, 0.05})};
+  const auto joined = [&](double length, double hidden) {
+    pieces[0].ends[0].hidden = pieces[1].ends[1].hidden = hidden;
+    pieces[0].ends[1].hidden = pieces[1].ends[0].hidden = 0.4;
+    TubeKind kind = chain_of(length);
+    kind.length_min = length;
+    return !chosen_of(pieces, kind).empty();
+  };
+  EXPECT_TRUE(joined(0.4, 0));
+  EXPECT_TRUE(joined(0.8, 0.3));
+  EXPECT_FALSE(joined(0.8, 0));
+}
+
+// A tube of 24 cm with a right angle in its middle, in one piece.
+Fragment bent_fragment(const Vector3d& corner) {
+  Fragment fragment = straight_fragment(corner - Vector3d(0.12, 0, 0), corner + Vector3d(0, 0.12, 0));
+  fragment.nodes.clear();
+  for (int i = -12; i <= 12; ++i)
+    fragment.nodes.push_back(corner + (i < 0 ? Vector3d(0.01 * i, 0, 0) : Vector3d(0, 0.01 * i, 0)));
+  fragment.parents = {0};
+  for (std::size_t i = 0; i + 1 < fragment.nodes.size(); ++i) fragment.parents.push_back(i);
+  fragment.ends = {{0, fragment.nodes.front(), -Vector3d::UnitX()},
+                   {fragment.nodes.size() - 1, fragment.nodes.back(), Vector3d::UnitY()}};
+  fragment.length = 0.24;
+  return fragment;
+}
+
+// Two pieces side by side may be a nearly straight tube, but not where all others are bent.
+TEST(ChooseLinks, MakeNoTubeThatLooksLikeNoOther) {
+  std::vector<Fragment> pieces = {straight_fragment({-0.12, -0.2, 0.05}, {-0.04, -0.2, 0.05}),
+                                  straight_fragment({0.04, -0.17, 0.05}, {0.12, -0.17, 0.05})};
+  for (Fragment& piece : pieces) {
+    for (FragmentEnd& end : piece.ends) end.hidden = 0.4;
+  }
+  TubeKind kind = chain_of(0.24);
+  kind.length_min = 0.24;
+  EXPECT_THAT(chosen_of(pieces, kind), SizeIs(1));
+  for (const double y : {0.0, 0.1, 0.2}) pieces.push_back(bent_fragment({0.3, y, 0.05}));
+  EXPECT_THAT(chosen_of(pieces, kind), IsEmpty());
+}
+
+TEST(ChooseLinks, CloseNoTube) {
+  // Four sides of a square: three joins make it an open chain.
+  const double s = 0.08;
+  const std::vector<Fragment> square = {straight_fragment({-s, -s - 0.02, 0.05}, {s, -s - 0.02, 0.05}),
+                                        straight_fragment({s + 0.02, -s, 0.05}, {s + 0.02, s, 0.05}),
+                                        straight_fragment({s, s + 0.02, 0.05}, {-s, s + 0.02, 0.05}),
+                                        straight_fragment({-s - 0.02, s, 0.05}, {-s - 0.02, -s, 0.05})};
+  EXPECT_THAT(chosen_of(square, chain_of(2)), SizeIs(3));
+}
+
+// Three arms whose axes meet 3 cm before each of them begins.
+TEST(ChooseLinks, OfTreesMeetWhereTheJunctionIsHidden) {
+  std::vector<Fragment> arms;
+  for (const double angle : {0.0, 2.1, 4.2}) {
+    const Vector3d way(std::cos(angle), std::sin(angle), 0);
+    arms.push_back(straight_fragment(Vector3d(0, 0, 0.05) + 0.03 * way, Vector3d(0, 0, 0.05) + 0.13 * way));
+  }
+  const std::vector<Link> chosen = chosen_of(arms, tree_of({{1, 2, 0.13}, {1, 3, 0.13}, {1, 4, 0.13}}));
+  ASSERT_THAT(chosen, SizeIs(2));
+  const auto is_to_junction = [](const Link& link) { return link.kind == LinkKind::junction; };
+  const auto to_junction = std::ranges::find_if(chosen, is_to_junction);
+  ASSERT_NE(to_junction, chosen.end());
+  EXPECT_EQ(to_junction->to.end, 0U);
+  EXPECT_LT((to_junction->to.position - Vector3d(0, 0, 0.05)).norm(), 0.01);
+}
+
+// Two pieces of 15 cm that may well be one tree's, but not one's that has short arms alone.
+TEST(ChooseLinks, OfTreesFitTheKnownSegments) {
+  const std::vector<Fragment> pieces = {straight_fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
+                                        straight_fragment({0, 0.03, 0.05}, {0.15, 0.03, 0.05})};
+  EXPECT_THAT(chosen_of(pieces, tree_of({{1, 2, 0.2}, {1, 3, 0.2}, {1, 4, 0.1}, {1, 5, 0.1}})), SizeIs(1));
+  SegmentTree star;
+  for (int end = 2; end <= 11; ++end) star.push_back({1, end, 0.06});
+  EXPECT_THAT(chosen_of(pieces, tree_of(star)), IsEmpty());
+}
+
+TEST(ChooseLinks, OfTreesLeadToJunctionsToo) {
+  Fragment bar = straight_fragment({-0.1, 0, 0.05}, {0.1, 0, 0.05});
+  bar.nodes = {{-0.1, 0, 0.05}, {0, 0, 0.05}, {0.1, 0, 0.05}};
+  bar.parents = {0, 0, 1};
+  bar.ends[1].node = 2;
+  const std::vector<Link> chosen = chosen_of({bar, straight_fragment({0, 0.02, 0.05}, {0, 0.12, 0.05})},
+                                             tree_of({{1, 2, 0.1}, {1, 3, 0.1}, {1, 4, 0.12}}));
+  ASSERT_THAT(chosen, SizeIs(1));
+  EXPECT_EQ(chosen.front().kind, LinkKind::junction);
+  EXPECT_EQ(chosen.front().fragment, 1U);
+  EXPECT_EQ(chosen.front().to.fragment, 0U);
+  EXPECT_EQ(chosen.front().to.node, 1U);
+  EXPECT_EQ(chosen.front().to.end, std::nullopt);
+}
+
+TEST(LinkedFragments, AreGroupedByTheChosenLinks) {
+  const std::vector<Link> links = {{LinkKind::chain_ends, 0, 0, {2, 0, 0, {0, 0, 0}}, 0, {}},
+                                   {LinkKind::chain_ends, 1, 0, {3, 0, 0, {0, 0, 0}}, 0, {}},
+                                   {LinkKind::chain_ends, 2, 0, {3, 0, 0, {0, 0, 0}}, 0, {}}};
+  EXPECT_THAT(linked_fragments(4, links, {0, 1}), ElementsAre(ElementsAre(0, 2), ElementsAre(1, 3)));
+  EXPECT_THAT(linked_fragments(4, links, {}), SizeIs(4));
+}
+
+}  // namespace
+}  // namespace tanglebin

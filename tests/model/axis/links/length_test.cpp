@@ -1,0 +1,79 @@
+#include "tanglebin/model/axis/links/length.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tanglebin/model/axis/axis_method.hpp"
+#include "tests/model/scene/scanned.hpp"
+
+namespace tanglebin {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// What the method found of these tubes when it was told that they are as long as this, m.
+AxisModel modelled_with(const std::vector<Tube>& tubes, double length_min, double length_max) {
+  KnownScene known = test::paper_scene();
+  known.kinds[0].segments[0].length = length_max;
+  known.kinds[0].length_min = length_min;
+  return model_by_axes(test::scanned(tubes), known, 1, 0);
+}
+
+// Two in line, with their ends under a third; and one alone.
+std::vector<Tube> two_in_line() {
+  return {test::chain(1, 0.0125, {{-0.255, 0, 0.0125}, {-0.015, 0, 0.0125}}),
+          test::chain(2, 0.0125, {{0.015, 0, 0.0125}, {0.255, 0, 0.0125}}),
+          test::chain(3, 0.0125, {{0, -0.12, 0.0375}, {0, 0.12, 0.0375}}),
+          test::chain(4, 0.0125, {{-0.2, -0.12, 0.0125}, {-0.08, -0.1, 0.0125}, {0.0365, -0.12, 0.0125}})};
+}
+
+TEST(WithLength, IsThatOfTheTubesSeenFromEndToEnd) {
+  const AxisModel found = modelled_with(two_in_line(), 0, infinite);
+  EXPECT_NEAR(found.kinds[0].length, 0.24, 0.005);
+  EXPECT_EQ(found.model.tubes.size(), 4U);
+}
+
+TEST(WithLength, IsTheLargestOfARange) {
+  EXPECT_EQ(modelled_with(two_in_line(), 0.1, 0.3).kinds[0].length, 0.3);
+}
+
+TEST(WithLength, IsTheOneGivenIfItIsGiven) {
+  EXPECT_EQ(modelled_with(two_in_line(), 0, 0.3).kinds[0].length, 0.3);
+  EXPECT_EQ(modelled_with(two_in_line(), 0.295, 0.3).kinds[0].length, 0.3);
+}
+
+TEST(WithLength, IsNotTheOneGivenIfThreeTubesAreLonger) {
+  EXPECT_NEAR(modelled_with(two_in_line(), 0, 0.22).kinds[0].length, 0.24, 0.005);
+  const std::vector<Tube> longer = {test::chain(1, 0.0125, {{-0.2, -0.1, 0.0125}, {0.04, -0.1, 0.0125}}),
+                                    test::chain(2, 0.0125, {{-0.2, 0, 0.0125}, {0.04, 0, 0.0125}}),
+                                    test::chain(3, 0.0125, {{-0.2, 0.1, 0.0125}, {0.04, 0.1, 0.0125}})};
+  EXPECT_NEAR(modelled_with(longer, 0, 0.22).kinds[0].length, 0.24, 0.005);
+  EXPECT_EQ(modelled_with({longer[0], longer[1]}, 0, 0.22).kinds[0].length, 0.22);
+}
+
+// Each is in two pieces, on either side of one that lies across.
+TEST(WithLength, IsThatOfTubesLongerThanAnyPieceThatIsSeen) {
+  std::vector<Tube> tubes = {test::chain(1, 0.0125, {{-0.06, -0.1, 0.0375}, {0.06, 0.1, 0.0375}})};
+  for (const double y : {-0.08, -0.03, 0.03, 0.08}) {
+    const auto id = static_cast<int>(tubes.size()) + 1;
+    tubes.push_back(test::chain(id, 0.0125, {{-0.2, y, 0.0125}, {0.2, y, 0.0125}}));
+  }
+  const AxisModel found = modelled_with(tubes, 0, infinite);
+  EXPECT_NEAR(found.kinds[0].length, 0.4, 0.005);
+  EXPECT_EQ(found.model.tubes.size(), 5U);
+}
+
+// Its ends are against the walls, which hide nothing.
+TEST(WithLength, CountsATubeBetweenTheWallsAsWhole) {
+  const AxisModel found =
+      modelled_with({test::chain(1, 0.0125, {{-0.262, 0, 0.0125}, {0.262, 0, 0.0125}})}, 0, infinite);
+  EXPECT_NEAR(found.kinds[0].length, 0.524, 0.01);
+}
+
+TEST(WithLength, OfNothingIsUnknown) {
+  EXPECT_EQ(modelled_with({}, 0, infinite).kinds[0].length, infinite);
+}
+
+}  // namespace
+}  // namespace tanglebin
