@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/picked.hpp"
@@ -37,27 +38,26 @@ SeenPoints seen_points(const PointCloud& cloud, const KnownScene& known, double 
   return seen;
 }
 
-GivenCloud given_cloud(const PointCloud& cloud, const SeenPoints& seen) {
-  GivenCloud given{.cloud = {}, .indices = seen.given};
-  PointCloud& own = given.cloud;
+PointCloud given_cloud(const PointCloud& cloud, const SeenPoints& seen) {
+  PointCloud own;
   own.points = picked(cloud.points, seen.given);
   if (!cloud.intensities.empty()) own.intensities = picked(cloud.intensities, seen.given);
   own.viewpoint = cloud.viewpoint;
   const bool is_whole = own.points.size() == cloud.points.size();
   own.width = is_whole ? cloud.width : own.points.size();
   own.height = is_whole ? cloud.height : 1;
-  return given;
+  return own;
 }
 
-std::vector<std::int32_t> labels_of_points(const PointCloud& cloud, const GivenLabels& labels,
+std::vector<std::int32_t> labels_of_points(const PointCloud& cloud, GivenLabels labels,
                                            const std::string& file) {
   if (const auto* labelled = std::get_if<PointCloud>(&labels))
     return match_points(cloud, *labelled, predicted_labels(*labelled, file), file);
-  const auto& in_order = std::get<std::vector<std::int32_t>>(labels);
+  auto& in_order = std::get<std::vector<std::int32_t>>(labels);
   if (in_order.size() != cloud.points.size())
     throw InputError({file, 0, ""}, fmt::format("{} labels", in_order.size()),
                      fmt::format("{}, one for each point of the cloud", cloud.points.size()));
-  return in_order;
+  return std::move(in_order);
 }
 
 }  // namespace tanglebin

@@ -11,13 +11,6 @@
 
 namespace tanglebin {
 
-/// A case's cloud as an algorithm from outside gets it: of the built-in methods' points, what a scanner
-/// measures, without the truth.
-struct GivenCloud {
-  PointCloud cloud;                  ///< points, intensities, viewpoint; organized only if it is whole
-  std::vector<std::size_t> indices;  ///< of its points, in the case's cloud: ascending
-};
-
 /// Which points of a case's cloud are looked at, with a ratio and seed of downsampling: the same as by the
 /// built-in methods with their default settings.
 struct SeenPoints {
@@ -27,11 +20,13 @@ struct SeenPoints {
 };
 SeenPoints seen_points(const PointCloud& cloud, const KnownScene& known, double ratio, std::uint64_t seed);
 
-GivenCloud given_cloud(const PointCloud& cloud, const SeenPoints& seen);
+/// A case's cloud as an algorithm from outside gets it: of SeenPoints::given, what a scanner measures,
+/// without the truth. Points, intensities, viewpoint; organized only if it is whole.
+PointCloud given_cloud(const PointCloud& cloud, const SeenPoints& seen);
 
 /// A label for each point of `cloud`. Throws InputError naming `file` if there are not as many labels as
 /// points, and as match_points() does.
-std::vector<std::int32_t> labels_of_points(const PointCloud& cloud, const GivenLabels& labels,
+std::vector<std::int32_t> labels_of_points(const PointCloud& cloud, GivenLabels labels,
                                            const std::string& file);
 
 }  // namespace tanglebin

@@ -58,12 +58,11 @@ Modelled modelled_from(const CaseData& data, const SeenPoints& seen, std::vector
 
 Modelled model_by_command(const Command& command, const KnownScene& known, const CaseData& data,
                           const SeenPoints& seen, const fs::path& scratch) {
-  const GivenCloud given = given_cloud(data.cloud, seen);
-  CommandOutput output = run_command(command, given.cloud, known, scratch);
+  CommandOutput output = run_command(command, given_cloud(data.cloud, seen), known, scratch);
   std::vector<std::int32_t> labels;
   if (output.labels) {
     labels.assign(data.cloud.points.size(), null_label);
-    for (std::size_t i = 0; i < given.indices.size(); ++i) labels[given.indices[i]] = (*output.labels)[i];
+    for (std::size_t i = 0; i < seen.given.size(); ++i) labels[seen.given[i]] = (*output.labels)[i];
   }
   Modelled modelled = modelled_from(data, seen, std::move(labels), std::move(output.tubes));
   modelled.seconds = output.seconds;

@@ -26,8 +26,10 @@ bool is_label(std::int64_t number) {
 }
 
 std::vector<std::int32_t> read_array(CloudInput& input) {
+  const std::vector<std::int64_t> numbers = read_npy_integers(input);
   std::vector<std::int32_t> labels;
-  for (const std::int64_t number : read_npy_integers(input)) {
+  labels.reserve(numbers.size());
+  for (const std::int64_t number : numbers) {
     if (!is_label(number))
       throw InputError(input.place_in_file(fmt::format("label {}", labels.size() + 1)),
                        fmt::format("{}", number), a_label);

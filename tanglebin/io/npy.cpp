@@ -194,6 +194,7 @@ Dictionary read_header(CloudInput& input) {
 template <typename Integer>
 std::vector<std::int64_t> read_integers(CloudInput& input, std::size_t count) {
   std::vector<std::int64_t> values;
+  values.reserve(std::min(count, input.remaining() / sizeof(Integer)));
   std::array<Integer, 4096> block;
   while (values.size() < count) {
     const std::size_t wanted = std::min(block.size(), count - values.size());

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "tanglebin/base/text.hpp"
@@ -316,14 +317,17 @@ PointCloud read_ply(const std::filesystem::path& file) {
 
 void write_ply(std::ostream& out, const PointCloud& cloud, std::string_view coordinates) {
   check_cloud(cloud);
-  std::string ply = header_of(cloud, coordinates);
-  const std::size_t header_size = ply.size();
+  const std::string header = header_of(cloud, coordinates);
+  out.write(header.data(), static_cast<std::streamsize>(header.size()));
   const std::size_t point_size = sizeof(Eigen::Vector3f) + size_of_one(cloud.normals) +
                                  size_of_one(cloud.colors) + size_of_one(cloud.labels) +
                                  size_of_one(cloud.intensities) + size_of_one(cloud.mixed);
-  ply.resize(header_size + cloud.points.size() * point_size);
-  char* to = ply.data() + header_size;
+  // A block at a time: memory that is touched for the first time costs more than the writing.
+  std::array<char, 1 << 15> block;
+  char* to = block.data();
+  const auto flush = [&] { out.write(block.data(), std::exchange(to, block.data()) - block.data()); };
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (static_cast<std::size_t>(block.data() + block.size() - to) < point_size) flush();
     to = put_vector(to, cloud.points[i]);
     if (!cloud.normals.empty()) to = put_vector(to, cloud.normals[i]);
     if (!cloud.colors.empty()) to = put(to, cloud.colors[i]);
@@ -331,7 +335,7 @@ void write_ply(std::ostream& out, const PointCloud& cloud, std::string_view coor
     if (!cloud.intensities.empty()) to = put(to, cloud.intensities[i]);
     if (!cloud.mixed.empty()) to = put(to, cloud.mixed[i]);
   }
-  out.write(ply.data(), static_cast<std::streamsize>(ply.size()));
+  flush();
 }
 
 }  // namespace tanglebin

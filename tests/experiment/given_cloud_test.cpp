@@ -56,7 +56,7 @@ TEST_F(GivenCloudOfACase, HasTheSharesOfTubesAndBinThatTheRatioSays) {
 // The bytes of both formats.
 std::string bytes_of_given(const PointCloud& cloud, const SeenPoints& seen) {
   std::ostringstream bytes;
-  const PointCloud given = given_cloud(cloud, seen).cloud;
+  const PointCloud given = given_cloud(cloud, seen);
   write_ply(bytes, given);
   write_pcd(bytes, given);
   return bytes.str();
@@ -80,15 +80,16 @@ TEST_F(GivenCloudOfACase, KeepsWhatAScannerMeasures) {
   PointCloud cloud = data_.cloud;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) cloud.intensities.push_back(static_cast<float>(i));
   cloud.viewpoint = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 2));
-  const GivenCloud given = given_cloud(cloud, seen(0.4));
-  EXPECT_EQ(given.cloud.intensities.back(), static_cast<float>(given.indices.back()));
-  EXPECT_EQ(given.cloud.points.back(), cloud.points[given.indices.back()]);
-  EXPECT_TRUE(given.cloud.viewpoint.has_value());
-  EXPECT_EQ(given.cloud.height, 1U);
+  const SeenPoints points = seen(0.4);
+  const PointCloud given = given_cloud(cloud, points);
+  EXPECT_EQ(given.intensities.back(), static_cast<float>(points.given.back()));
+  EXPECT_EQ(given.points.back(), cloud.points[points.given.back()]);
+  EXPECT_TRUE(given.viewpoint.has_value());
+  EXPECT_EQ(given.height, 1U);
 }
 
 TEST_F(GivenCloudOfACase, LabelsInItsOrderAreAsManyAsItsPoints) {
-  const PointCloud cloud = given_cloud(data_.cloud, seen(0.4)).cloud;
+  const PointCloud cloud = given_cloud(data_.cloud, seen(0.4));
   const std::vector<std::int32_t> labels(cloud.points.size(), 7);
   EXPECT_EQ(labels_of_points(cloud, labels, "out.npy"), labels);
   EXPECT_THAT(complaint([&] {

@@ -178,6 +178,41 @@ TEST_F(OutsideAlgorithm, ThatHangsIsEndedWithAllThatItStarted) {
   EXPECT_FALSE(test::is_running(std::stoi(bytes_of(pid))));
 }
 
+TEST_F(OutsideAlgorithm, ThatFloodsStandardErrorWithoutEndIsEnded) {
+  ProcessLimits limits = default_limits();
+  limits.time = std::chrono::milliseconds(500);
+  const std::string failure = failure_of("yes trouble >&2", "{cloud} {out.txt}", limits);
+  EXPECT_LT(failure.size(), 5000U);
+  EXPECT_THAT(failure, StartsWith("the command took longer than 0.5 s"));
+}
+
+TEST_F(OutsideAlgorithm, ThatLeavesProcessesBehindIsScoredAndTheyAreEnded) {
+  const std::string pids = (work_ / "pids").string();
+  const Modelled modelled = model_by_shell(
+      "(setsid sh -c 'echo $$ >>" + pids + "; sleep 1000' &); sleep 1000 & echo $! >>" + pids +
+      "\nuntil [ $(wc -l <" + pids +
+      ") = 2 ]; do :; done\n"
+      "n=$(sed -n 's/^element vertex //p' \"$1\" | head -n 1); yes 1 | head -n \"$n\" >\"$2\"");
+  EXPECT_GT(score_model(data_, modelled.model, false).labels.micro_recall, 0.3);
+  std::istringstream left(bytes_of(pids));
+  for (pid_t pid = 0; left >> pid;) EXPECT_FALSE(test::is_running(pid));
+  EXPECT_TRUE(fs::is_empty(scratch_.path()));
+}
+
+TEST_F(OutsideAlgorithm, ThatCannotStartIsNamed) {
+  const fs::path program = work_ / "method";
+  write_bytes(program, "#!/no/such/interpreter\n");
+  fs::permissions(program, fs::perms::owner_all);
+  const Command command = command_of("./method {cloud} {out.txt}", work_.path());
+  const auto run = [&] { model_by({"mine", command}, known_, data_, run_, settings_, scratch_.path()); };
+  EXPECT_THAT(complaint(run), AllOf(HasSubstr("cannot start "), HasSubstr("No such file or directory")));
+  fs::permissions(program, fs::perms::owner_read);
+  EXPECT_THAT(complaint(run), AllOf(HasSubstr("cannot start "), HasSubstr("Permission denied")));
+  fs::remove(program);
+  EXPECT_THAT(complaint(run), HasSubstr("cannot start "));
+  EXPECT_TRUE(fs::is_empty(scratch_.path()));
+}
+
 TEST_F(OutsideAlgorithm, LabelsThatAreMissingOrOfOtherPointsAreNamed) {
   EXPECT_THAT(complaint([&] { model_by_labels(work_.path().string()); }),
               HasSubstr(": found no labels, expected A3/plys/1.ply or another file of labels or tubes"));
