@@ -84,11 +84,9 @@ std::span<const Chain> of_one_length(std::span<const Chain> chains) {
   constexpr double tolerance = 0.05;
   std::span<const Chain> best;
   for (std::size_t first = 0; first < chains.size(); ++first) {
-    const auto [begin, end] = std::ranges::equal_range(chains, 0, {}, [&](const Chain& chain) {
-      if (chain.length < chains[first].length) return -1;
-      return chain.length <= chains[first].length * (1 + tolerance) ? 0 : 1;
-    });
-    const std::span<const Chain> alike(begin, end);
+    const auto end =
+        std::ranges::upper_bound(chains, chains[first].length * (1 + tolerance), {}, &Chain::length);
+    const std::span<const Chain> alike(chains.begin() + static_cast<std::ptrdiff_t>(first), end);
     if (sum_of_lengths(alike) > sum_of_lengths(best)) best = alike;
   }
   return best;
