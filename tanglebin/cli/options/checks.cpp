@@ -4,18 +4,28 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include "tanglebin/base/text.hpp"
 
 namespace tanglebin::cli {
 
-CLI::Validator whole_number(int least, int most) {
+namespace {
+
+template <typename Number>
+CLI::Validator within(Number least, Number most, std::string_view a_number) {
   const auto complaint = [=](const std::string& text) -> std::string {
-    const auto number = to_number<int>(text);
+    const auto number = to_number<Number>(text);
     if (number && *number >= least && *number <= most) return {};
-    return fmt::format("found {}, expected a whole number from {} to {}", excerpt(text), least, most);
+    return fmt::format("found {}, expected {} from {} to {}", excerpt(text), a_number, least, most);
   };
   return {complaint, fmt::format("{}-{}", least, most)};
+}
+
+}  // namespace
+
+CLI::Validator whole_number(int least, int most) {
+  return within(least, most, "a whole number");
 }
 
 CLI::Validator finite_number() {
@@ -28,12 +38,7 @@ CLI::Validator finite_number() {
 }
 
 CLI::Validator number_within(double least, double most) {
-  const auto complaint = [=](const std::string& text) -> std::string {
-    const auto number = to_number<double>(text);
-    if (number && *number >= least && *number <= most) return {};
-    return fmt::format("found {}, expected a number from {} to {}", excerpt(text), least, most);
-  };
-  return {complaint, fmt::format("{}-{}", least, most)};
+  return within(least, most, "a number");
 }
 
 }  // namespace tanglebin::cli

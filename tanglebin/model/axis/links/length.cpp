@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -13,8 +14,6 @@
 
 namespace tanglebin {
 namespace {
-
-using Eigen::Vector3d;
 
 /// A chain of fragments.
 struct Chain {
@@ -83,37 +82,47 @@ double sum_of_lengths(std::span<const Chain> chains) {
 std::span<const Chain> of_one_length(std::span<const Chain> chains) {
   constexpr double tolerance = 0.05;
   std::span<const Chain> best;
+  double most = 0;
   for (std::size_t first = 0; first < chains.size(); ++first) {
     const auto end =
         std::ranges::upper_bound(chains, chains[first].length * (1 + tolerance), {}, &Chain::length);
     const std::span<const Chain> alike(chains.begin() + static_cast<std::ptrdiff_t>(first), end);
-    if (sum_of_lengths(alike) > sum_of_lengths(best)) best = alike;
+    const double sum = sum_of_lengths(alike);
+    if (sum <= most) continue;
+    best = alike;
+    most = sum;
   }
   return best;
 }
 
-/// The length that most of a scan's chains have.
+/// The length that many of a scan's chains have.
 struct CommonLength {
-  double length = 0;       ///< m; 0 if there is none
-  std::size_t chains = 0;  ///< that have it
+  double length;       ///< m
+  std::size_t chains;  ///< that have it
 };
 
 constexpr std::size_t enough = 3;  // chains that agree
 
-// That of the fragments which are whole chains, if enough agree. Otherwise that of linked chains: too low a
-// bound breaks them at it, and at lengths that differ; any other leaves those that most links make at theirs.
-CommonLength common_length(const TubeKind& kind, const std::vector<Fragment>& fragments,
-                           const RangeImage& seen, double longest, const LinkSettings& settings) {
-  const std::vector<Chain> alone = whole(chains_of(fragments, {}, {}, kind.radius, seen));
-  const std::span<const Chain> alike_alone = of_one_length(alone);
-  if (alike_alone.size() >= enough && length_max(alike_alone.back().length, settings) >= longest)
-    return {alike_alone[alike_alone.size() / 2].length, alike_alone.size()};
+// That of the fragments which are whole chains, if enough agree.
+std::optional<CommonLength> length_of_pieces(const std::vector<Fragment>& fragments, double radius,
+                                             const RangeImage& seen, double longest,
+                                             const LinkSettings& settings) {
+  const std::vector<Chain> pieces = whole(chains_of(fragments, {}, {}, radius, seen));
+  const std::span<const Chain> alike = of_one_length(pieces);
+  if (alike.size() < enough || length_max(alike.back().length, settings) < longest) return std::nullopt;
+  return CommonLength{alike[alike.size() / 2].length, alike.size()};
+}
 
+// That of linked chains: too low a bound breaks them at it, and at lengths that differ; any other leaves
+// those that most links make at theirs.
+std::optional<CommonLength> length_of_linked(const TubeKind& kind, const std::vector<Fragment>& fragments,
+                                             const RangeImage& seen, double longest,
+                                             const LinkSettings& settings) {
   constexpr std::array bounds = {1.25, 1.6, 2.05, 2.6};  // against the longest fragment
   constexpr double at_bound = 0.97;
   constexpr double some = 0.3;  // of the length of all chains
   constexpr double most = 0.5;
-  CommonLength common;
+  std::optional<CommonLength> common;
   double best_share = some;
   for (const double bound : bounds) {
     const std::vector<Chain> chains = chains_up_to(bound * longest, kind, fragments, seen, settings);
@@ -128,25 +137,31 @@ CommonLength common_length(const TubeKind& kind, const std::vector<Fragment>& fr
   return common;
 }
 
+std::optional<CommonLength> common_length(const TubeKind& kind, const std::vector<Fragment>& fragments,
+                                          const RangeImage& seen, double longest,
+                                          const LinkSettings& settings) {
+  const auto of_pieces = length_of_pieces(fragments, kind.radius, seen, longest, settings);
+  return of_pieces ? of_pieces : length_of_linked(kind, fragments, seen, longest, settings);
+}
+
 // A known length, unless it is too short for what is seen.
 TubeKind with_checked_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                              double longest, const LinkSettings& settings) {
   if (longest <= length_max(kind.length(), settings)) return kind;
   TubeKind unknown = kind;
   unknown.length_min = 0;
-  const CommonLength common = common_length(unknown, fragments, seen, longest, settings);
-  if (common.chains >= enough && common.length > length_max(kind.length(), settings))
-    kind.segments[0].length = common.length;
+  const auto common = common_length(unknown, fragments, seen, longest, settings);
+  if (common && common->chains >= enough && common->length > length_max(kind.length(), settings))
+    kind.segments[0].length = common->length;
   return kind;
 }
 
 TubeKind with_found_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                            double longest, const LinkSettings& settings) {
   constexpr double hidden = 2;  // the length of a chain, against the longest fragment
-  const CommonLength common = common_length(kind, fragments, seen, longest, settings);
-  if (common.chains > 0) {
-    kind.segments[0].length = std::max(common.length, longest);
-    if (common.chains >= enough) kind.length_min = kind.segments[0].length;
+  if (const auto common = common_length(kind, fragments, seen, longest, settings)) {
+    kind.segments[0].length = std::max(common->length, longest);
+    if (common->chains >= enough) kind.length_min = kind.segments[0].length;
     return kind;
   }
   const std::vector<Chain> seen_whole =
