@@ -97,8 +97,8 @@ std::span<const Chain> of_one_length(std::span<const Chain> chains) {
 
 /// The length that many of a scan's chains have.
 struct CommonLength {
-  double length;       ///< m
-  std::size_t chains;  ///< that have it
+  double length;  ///< m
+  bool is_sure;   ///< so many have it that it may be used like one that was told
 };
 
 constexpr std::size_t enough = 3;  // chains that agree
@@ -110,7 +110,7 @@ std::optional<CommonLength> length_of_pieces(const std::vector<Fragment>& fragme
   const std::vector<Chain> pieces = whole(chains_of(fragments, {}, {}, radius, seen));
   const std::span<const Chain> alike = of_one_length(pieces);
   if (alike.size() < enough || length_max(alike.back().length, settings) < longest) return std::nullopt;
-  return CommonLength{alike[alike.size() / 2].length, alike.size()};
+  return CommonLength{alike[alike.size() / 2].length, true};
 }
 
 // That of linked chains: too low a bound breaks them at it, and at lengths that differ; any other leaves
@@ -120,17 +120,23 @@ std::optional<CommonLength> length_of_linked(const TubeKind& kind, const std::ve
                                              const LinkSettings& settings) {
   constexpr std::array bounds = {1.25, 1.6, 2.05, 2.6};  // against the longest fragment
   constexpr double at_bound = 0.97;
-  constexpr double some = 0.3;  // of the length of all chains
+  constexpr double few = 0.2;  // of the length of all chains
+  constexpr double many = 0.3;
+  constexpr double nearly_all = 0.8;
   constexpr double most = 0.5;
   std::optional<CommonLength> common;
-  double best_share = some;
+  double best_share = 0;
   for (const double bound : bounds) {
     const std::vector<Chain> chains = chains_up_to(bound * longest, kind, fragments, seen, settings);
     const std::vector<Chain> may_be_whole = uncut(chains);
     const std::span<const Chain> alike = of_one_length(may_be_whole);
     const double share = sum_of_lengths(alike) / sum_of_lengths(chains);
-    if (alike.empty() || share < best_share || alike.back().length > at_bound * bound * longest) continue;
-    common = {alike.back().length, alike.size()};
+    const bool are_enough = alike.size() >= enough;
+    const bool few_will_do =
+        are_enough && sum_of_lengths(may_be_whole) > nearly_all * sum_of_lengths(chains);
+    if (share < (few_will_do ? few : many) || share < best_share) continue;
+    if (alike.back().length > at_bound * bound * longest) continue;
+    common = {alike.back().length, are_enough && share >= many};
     best_share = share;
     if (share > most) break;
   }
@@ -151,7 +157,7 @@ TubeKind with_checked_length(TubeKind kind, const std::vector<Fragment>& fragmen
   TubeKind unknown = kind;
   unknown.length_min = 0;
   const auto common = common_length(unknown, fragments, seen, longest, settings);
-  if (common && common->chains >= enough && common->length > length_max(kind.length(), settings))
+  if (common && common->is_sure && common->length > length_max(kind.length(), settings))
     kind.segments[0].length = common->length;
   return kind;
 }
@@ -161,7 +167,7 @@ TubeKind with_found_length(TubeKind kind, const std::vector<Fragment>& fragments
   constexpr double hidden = 2;  // the length of a chain, against the longest fragment
   if (const auto common = common_length(kind, fragments, seen, longest, settings)) {
     kind.segments[0].length = std::max(common->length, longest);
-    if (common->chains >= enough) kind.length_min = kind.segments[0].length;
+    if (common->is_sure) kind.length_min = kind.segments[0].length;
     return kind;
   }
   const std::vector<Chain> seen_whole =
