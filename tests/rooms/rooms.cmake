@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Fails where a room includes a header of a room that cmake/rooms.cmake does not allow it, where that list has a circle or
-# an edge that nobody uses, and where docs/architecture.md shows another list.
+# an edge that nobody uses, where docs/architecture.md shows another list, and where a room has more than 4,000 lines.
 include(${SOURCE}/cmake/rooms.cmake)
 
 # Each room comes after the rooms that it includes: so there is no circle.
@@ -37,6 +37,21 @@ foreach(room IN LISTS tanglebin_rooms)
       message(SEND_ERROR "cmake/rooms.cmake: ${room} may include ${allowed} and does not")
     endif()
   endforeach()
+endforeach()
+
+set(lines_max 4000)
+foreach(room IN LISTS tanglebin_rooms)
+  set(lines 0)
+  file(GLOB sources ${SOURCE}/tanglebin/${room}/*.?pp)
+  foreach(source IN LISTS sources)
+    file(READ ${source} text)
+    string(REGEX REPLACE "[^\n]" "" ends "${text}")
+    string(LENGTH "${ends}" count)
+    math(EXPR lines "${lines} + ${count}")
+  endforeach()
+  if(lines GREATER lines_max)
+    message(SEND_ERROR "tanglebin/${room}: found ${lines} lines, expected at most ${lines_max}: make two rooms of it")
+  endif()
 endforeach()
 
 # Sources in a folder that is no room would escape the rule.
