@@ -132,8 +132,7 @@ std::optional<CommonLength> length_of_linked(const TubeKind& kind, const std::ve
     const std::span<const Chain> alike = of_one_length(may_be_whole);
     const double share = sum_of_lengths(alike) / sum_of_lengths(chains);
     const bool are_enough = alike.size() >= enough;
-    const bool few_will_do =
-        are_enough && sum_of_lengths(may_be_whole) > nearly_all * sum_of_lengths(chains);
+    const bool few_will_do = are_enough && sum_of_lengths(may_be_whole) > nearly_all * sum_of_lengths(chains);
     if (share < (few_will_do ? few : many) || share < best_share) continue;
     if (alike.back().length > at_bound * bound * longest) continue;
     common = {alike.back().length, are_enough && share >= many};
