@@ -130,11 +130,12 @@ std::optional<CommonLength> length_of_linked(const TubeKind& kind, const std::ve
     const std::vector<Chain> chains = chains_up_to(bound * longest, kind, fragments, seen, settings);
     const std::vector<Chain> may_be_whole = uncut(chains);
     const std::span<const Chain> alike = of_one_length(may_be_whole);
-    const double share = sum_of_lengths(alike) / sum_of_lengths(chains);
+    const double all = sum_of_lengths(chains);
+    const double share = sum_of_lengths(alike) / all;
     const bool are_enough = alike.size() >= enough;
-    const bool few_will_do = are_enough && sum_of_lengths(may_be_whole) > nearly_all * sum_of_lengths(chains);
-    if (share < (few_will_do ? few : many) || share < best_share) continue;
-    if (alike.back().length > at_bound * bound * longest) continue;
+    const bool few_will_do = are_enough && sum_of_lengths(may_be_whole) > nearly_all * all;
+    if (alike.empty() || share < best_share || alike.back().length > at_bound * bound * longest) continue;
+    if (share < (few_will_do ? few : many)) continue;
     common = {alike.back().length, are_enough && share >= many};
     best_share = share;
     if (share > most) break;
