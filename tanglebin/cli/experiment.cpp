@@ -244,8 +244,9 @@ void experiment(const ExperimentArguments& arguments) {
     return run_experiment(dataset, settings, wanted, arguments.out, arguments.many.jobs, progress.observer());
   }();
   if (!summary.was_stopped()) {
-    write_pictures(arguments.out, dataset, settings);
-    write_scenes(arguments.out, dataset, settings, static_cast<std::size_t>(arguments.scenes));
+    ModelAgain model_again(arguments.out, dataset, settings);
+    write_pictures(arguments.out, dataset, settings, model_again);
+    write_scenes(arguments.out, dataset, settings, static_cast<std::size_t>(arguments.scenes), model_again);
   }
   const ResultsSummary results = summary_of(arguments.out, settings.ratios);
   const Findings findings{results.means(), results.failures(), results.ratio(), seconds_since(start)};

@@ -15,8 +15,12 @@ namespace tanglebin {
 
 namespace fs = std::filesystem;
 
+namespace {
+constexpr const char* models_folder = "models";
+}  // namespace
+
 std::vector<fs::path> files_of(const RunId& run) {
-  const fs::path folder = fs::path("models") / run.method / fmt::format("{}", run.ratio);
+  const fs::path folder = fs::path(models_folder) / run.method / fmt::format("{}", run.ratio);
   return {folder / file_of(run.scene, "plys", "ply", run.scanner),
           folder / file_of(run.scene, "tube_configurations", "txt", run.scanner),
           folder / file_of(run.scene, "tubes", "json", run.scanner)};
@@ -31,6 +35,10 @@ void keep_model(const fs::path& directory, const RunId& run, const PointCloud& c
     make_directories((directory / files[i]).parent_path());
     write_file(directory / files[i], contents[i]);
   }
+}
+
+Entry entry_of_kept(const fs::path& directory, const std::string& method) {
+  return {method, LabelsDirectory{(directory / models_folder / method / "{ratio}").string()}};
 }
 
 bool has_model(const fs::path& directory, const RunId& run) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "tanglebin/experiment/run.hpp"
@@ -16,6 +17,9 @@ std::vector<std::filesystem::path> files_of(const RunId& run);
 /// Writes them, replacing older ones. Throws as write_file() does.
 void keep_model(const std::filesystem::path& directory, const RunId& run, const PointCloud& cloud,
                 const Model& model);
+
+/// The kept models of a method, as an entry of the same name.
+Entry entry_of_kept(const std::filesystem::path& directory, const std::string& method);
 
 /// Whether a results directory has all of a run's files.
 bool has_model(const std::filesystem::path& directory, const RunId& run);

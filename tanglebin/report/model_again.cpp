@@ -4,31 +4,43 @@
 #include <variant>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/experiment/kept_models.hpp"
 #include "tanglebin/experiment/summary.hpp"
 #include "tanglebin/files/safe_file.hpp"
 
 namespace tanglebin {
 
-ModelAgain::ModelAgain(const std::filesystem::path& results, const Dataset& dataset,
-                       const ExperimentSettings& settings, const std::function<void()>& at_run)
-    : dataset_(dataset), settings_(settings), at_run_(at_run), scratch_(results / ".pictures.unfinished") {
-  std::filesystem::remove_all(scratch_);
+namespace fs = std::filesystem;
+
+ModelAgain::ModelAgain(fs::path results, const Dataset& dataset, const ExperimentSettings& settings)
+    : results_(std::move(results)),
+      dataset_(dataset),
+      settings_(settings),
+      scratch_(results_ / ".pictures.unfinished") {
+  fs::remove_all(scratch_);
   make_directories(scratch_);
 }
 
 ModelAgain::~ModelAgain() {
   std::error_code ignored;
-  std::filesystem::remove_all(scratch_, ignored);
+  fs::remove_all(scratch_, ignored);
 }
 
-std::optional<Model> ModelAgain::operator()(const Entry& entry, const SeenCase& seen,
-                                            const CaseData& data) const {
-  at_run_();
+std::optional<Model> ModelAgain::operator()(const Entry& entry, const SeenCase& seen, const CaseData& data) {
+  if (!std::holds_alternative<Command>(entry.what)) return model(entry, seen, data);
+  const auto [known, is_new] = of_commands_.try_emplace({entry.name, seen});
+  if (is_new) known->second = model(entry, seen, data);
+  return known->second;
+}
+
+std::optional<Model> ModelAgain::model(const Entry& entry, const SeenCase& seen, const CaseData& data) const {
   const auto& [scene, scanner] = seen;
   const RunId run{entry.name, scene, ratio_to_show(settings_.ratios), scanner};
+  const bool is_kept = std::holds_alternative<Command>(entry.what) && has_model(results_, run);
+  const Entry source = is_kept ? entry_of_kept(results_, entry.name) : entry;
   const KnownScene known = known_scene(recipe_seen(dataset_, seen), data, scene, settings_.scene);
   try {
-    return model_by(entry, known, data, run, settings_, scratch_).model;
+    return model_by(source, known, data, run, settings_, scratch_).model;
   } catch (const InputError&) {
     if (is_built_in(entry)) throw;
     return std::nullopt;

@@ -1,33 +1,37 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "tanglebin/experiment/modelled.hpp"
 
 namespace tanglebin {
 
-/// Models runs of an experiment once more, to show what was found.
+/// The models behind an experiment's results, to show what was found. Built-in methods model a case once
+/// more, which gives the same. A command's models are read from where `experiment --keep` kept them; if they
+/// were not kept, it runs once more for each case, however often the case is asked for.
 class ModelAgain {
 public:
-  /// A command's files are in a directory of their own in `results`, for the lifetime of this object. Calls
-  /// `at_run` before each run.
-  ModelAgain(const std::filesystem::path& results, const Dataset& dataset, const ExperimentSettings& settings,
-             const std::function<void()>& at_run);
+  /// A command's files are in a directory of their own in `results`, for the lifetime of this object.
+  ModelAgain(std::filesystem::path results, const Dataset& dataset, const ExperimentSettings& settings);
   ~ModelAgain();
   ModelAgain(const ModelAgain&) = delete;
   ModelAgain& operator=(const ModelAgain&) = delete;
 
   /// The model of a case at the ratio to show; none if a command fails this time. Throws InputError as
   /// model_by() does for a method that is built in.
-  std::optional<Model> operator()(const Entry& entry, const SeenCase& seen, const CaseData& data) const;
+  std::optional<Model> operator()(const Entry& entry, const SeenCase& seen, const CaseData& data);
 
 private:
+  std::optional<Model> model(const Entry& entry, const SeenCase& seen, const CaseData& data) const;
+
+  std::filesystem::path results_;
   const Dataset& dataset_;
   const ExperimentSettings& settings_;
-  const std::function<void()>& at_run_;
   std::filesystem::path scratch_;
+  std::map<std::pair<std::string, SeenCase>, std::optional<Model>> of_commands_;
 };
 
 }  // namespace tanglebin

@@ -13,7 +13,6 @@
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/pictures/picture.hpp"
 #include "tanglebin/recipe/case_json.hpp"
-#include "tanglebin/report/model_again.hpp"
 
 namespace tanglebin {
 namespace {
@@ -60,9 +59,8 @@ std::string draw_example(const Example& example, const RunId& run, const std::fi
 }  // namespace
 
 void write_pictures(const std::filesystem::path& directory, const Dataset& dataset,
-                    const ExperimentSettings& settings, const std::function<void()>& at_run) {
+                    const ExperimentSettings& settings, ModelAgain& model_again) {
   make_directories(directory / "pictures");
-  const ModelAgain model_again(directory, dataset, settings, at_run);
   const ResultsSummary summary = summary_of(directory, settings.ratios);
   std::string lines;
   for (const Entry& entry : settings.methods) {

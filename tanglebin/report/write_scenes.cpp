@@ -11,7 +11,6 @@
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/files/json_record.hpp"
 #include "tanglebin/files/safe_file.hpp"
-#include "tanglebin/report/model_again.hpp"
 #include "tanglebin/report/scene_view.hpp"
 #include "tanglebin/report/text.hpp"
 #include "tanglebin/score/score_clouds.hpp"
@@ -73,7 +72,7 @@ public:
                .support = {.bin = recipe_of(dataset, seen_.scene).bin}} {}
 
   /// The first method's filter chooses the points. The others' are the same, unless they were set apart.
-  void add(const Entry& method, const ModelAgain& model_again) {
+  void add(const Entry& method, ModelAgain& model_again) {
     const std::optional<Model> model = model_again(method, seen_, data_);
     if (!model) return;
     if (!scene_.truth) choose_points(model->filtered);
@@ -118,10 +117,8 @@ std::vector<SceneToShow> scenes_to_show(const ResultsSummary& results, const std
 }
 
 void write_scenes(const std::filesystem::path& directory, const Dataset& dataset,
-                  const ExperimentSettings& settings, std::size_t count,
-                  const std::function<void()>& at_run) {
+                  const ExperimentSettings& settings, std::size_t count, ModelAgain& model_again) {
   const ResultsSummary results = summary_of(directory, settings.ratios);
-  const ModelAgain model_again(directory, dataset, settings, at_run);
   std::string lines;
   for (const SceneToShow& scene : scenes_to_show(results, settings.methods, count)) {
     ShownCase shown(dataset, scene, results.ratio());

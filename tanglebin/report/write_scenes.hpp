@@ -2,12 +2,12 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "tanglebin/experiment/run.hpp"
 #include "tanglebin/experiment/summary.hpp"
+#include "tanglebin/report/model_again.hpp"
 
 namespace tanglebin {
 
@@ -27,11 +27,9 @@ std::vector<SceneToShow> scenes_to_show(const ResultsSummary& results, const std
 inline constexpr std::size_t most_points_of_results = 25'000;
 
 /// Writes scenes.jsonl (docs/formats.md): scenes_to_show() at ratio_to_show() of the results in `directory`,
-/// with the points that the first method's filter left, and what every method found. Models these runs again,
-/// which gives the same models; a command that fails this time is left out. Calls `at_run` before each of
-/// them; what it throws ends the work. Throws InputError as run_experiment() does.
-void write_scenes(
-    const std::filesystem::path& directory, const Dataset& dataset, const ExperimentSettings& settings,
-    std::size_t count, const std::function<void()>& at_run = [] {});
+/// with the points that the first method's filter left, and what every method found. A command
+/// that fails this time is left out. Throws InputError as run_experiment() does.
+void write_scenes(const std::filesystem::path& directory, const Dataset& dataset,
+                  const ExperimentSettings& settings, std::size_t count, ModelAgain& model_again);
 
 }  // namespace tanglebin

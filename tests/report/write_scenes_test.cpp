@@ -50,7 +50,8 @@ TEST(WriteScenes, EachSceneHasTheTruthAndWhatEveryMethodFound) {
   const Dataset dataset = directory.read();
   const ExperimentSettings settings{.methods = built_in_entries(), .ratios = {0.4}, .model = {.seed = 5}};
   run_experiment(dataset, settings, cases(dataset), results.path(), 2);
-  write_scenes(results.path(), dataset, settings, 1);
+  ModelAgain model_again(results.path(), dataset, settings);
+  write_scenes(results.path(), dataset, settings, 1, model_again);
 
   const std::string text = test::bytes_of(results / "scenes.jsonl");
   std::istringstream lines(text);
@@ -75,7 +76,7 @@ TEST(WriteScenes, EachSceneHasTheTruthAndWhatEveryMethodFound) {
     }
   }
   EXPECT_GE(scenes, 1);
-  write_scenes(results.path(), dataset, settings, 1);
+  write_scenes(results.path(), dataset, settings, 1, model_again);
   EXPECT_EQ(test::bytes_of(results / "scenes.jsonl"), text);
 }
 
