@@ -170,7 +170,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
     steps.length = kind.length();
     steps.links = find_links(steps.fragments, seen, kind, settings.link,
                              space_of_other_kinds(result.kinds, known, steps));
-    steps.chosen = choose_links(steps.fragments, steps.links, kind, settings.link);
+    steps.chosen = choose_links(steps.fragments, steps.links, kind, settings.link).links;
     steps.tubes = linked_fragments(steps.fragments.size(), steps.links, steps.chosen);
   });
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");

@@ -316,8 +316,8 @@ TubeShapes shapes_of_whole_chains(const Candidates& candidates, const std::vecto
   return {whole, kind.radius};
 }
 
-// The likeliest combination of links, ascending.
-std::vector<std::size_t> likeliest(const Candidates& candidates) {
+// The likeliest combination of links.
+ChosenLinks likeliest(const Candidates& candidates) {
   std::vector<std::size_t> all(candidates.links.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const bool with_branches = candidates.kind.branches();
@@ -327,22 +327,24 @@ std::vector<std::size_t> likeliest(const Candidates& candidates) {
   // Matching pairs ends, so it cannot represent a junction of three ends.
   if (!with_branches) selection.take_possible(possible_matching(candidates, none));
   selection.take_possible(all);
-  std::vector<std::size_t> chosen = exchanged(none, std::move(selection), all, with_branches).taken();
-  std::ranges::sort(chosen);
+  const Selection best = exchanged(none, std::move(selection), all, with_branches);
+  ChosenLinks chosen{.links = best.taken(), .log_odds = best.weight()};
+  std::ranges::sort(chosen.links);
+  for (const Part& fragment : candidates.alone) chosen.log_odds -= fragment.cost;
   return chosen;
 }
 
 }  // namespace
 
-std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
-                                      const TubeKind& kind, const LinkSettings& settings) {
+ChosenLinks choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
+                         const TubeKind& kind, const LinkSettings& settings) {
   Candidates candidates{fragments, links, kind, settings};
   add_graph(candidates);
   add_numbers(candidates);
   add_parts(candidates);
-  std::vector<std::size_t> chosen = likeliest(candidates);
+  ChosenLinks chosen = likeliest(candidates);
   if (kind.branches()) return chosen;
-  candidates.shapes = shapes_of_whole_chains(candidates, chosen);
+  candidates.shapes = shapes_of_whole_chains(candidates, chosen.links);
   if (!candidates.shapes.are_known()) return chosen;
   add_parts(candidates);
   return likeliest(candidates);

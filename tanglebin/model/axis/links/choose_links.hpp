@@ -9,12 +9,17 @@
 
 namespace tanglebin {
 
+/// Links that are chosen together.
+struct ChosenLinks {
+  std::vector<std::size_t> links;  ///< ascending
+  double log_odds;                 ///< the sum of their weights, less the costs of the tubes' shapes
+};
+
 /// Chooses the likeliest combination of the links from find_links() in which every tube is open, no longer
 /// than known, and has no surplus ends. For chains this is the maximum-weight matching of the ends, for trees
-/// the heaviest links one after the other. Then links are exchanged while that increases the sum of the
-/// weights, less the costs of the tubes' shapes. Returns ascending indices.
-std::vector<std::size_t> choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
-                                      const TubeKind& kind, const LinkSettings& settings);
+/// the heaviest links one after the other. Then links are exchanged while that increases their log odds.
+ChosenLinks choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
+                         const TubeKind& kind, const LinkSettings& settings);
 
 /// The fragments of each tube that the chosen links form. Each list is ascending; the tubes are sorted by
 /// their first fragment.

@@ -1,12 +1,10 @@
 #include "tanglebin/model/axis/links/length.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstddef>
-#include <numeric>
-#include <optional>
+#include <limits>
 #include <set>
-#include <span>
 #include <utility>
 
 #include "tanglebin/model/axis/links/choose_links.hpp"
@@ -18,7 +16,6 @@ namespace {
 /// A chain of fragments.
 struct Chain {
   double length;  ///< m
-  bool is_whole;  ///< seen from end to end
   bool is_cut;    ///< by the border of the image
 };
 
@@ -26,7 +23,7 @@ bool leaves_view(const FragmentEnd& end, double radius, const RangeImage& seen) 
   return !seen.covers(end.position + 2 * radius * end.outward, radius);
 }
 
-// The chains that the chosen links make of the fragments, the shortest first.
+// The chains that the chosen links make of the fragments.
 std::vector<Chain> chains_of(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
                              const std::vector<std::size_t>& chosen, double radius, const RangeImage& seen) {
   std::set<std::pair<std::size_t, std::size_t>> joined;
@@ -38,153 +35,92 @@ std::vector<Chain> chains_of(const std::vector<Fragment>& fragments, const std::
   for (const std::size_t i : chosen) gaps[links[i].fragment] += links[i].gap;
   std::vector<Chain> chains;
   for (const std::vector<std::size_t>& members : linked_fragments(fragments.size(), links, chosen)) {
-    Chain chain{.length = 0, .is_whole = true, .is_cut = false};
+    Chain chain{.length = 0, .is_cut = false};
     for (const std::size_t member : members) {
       const Fragment& fragment = fragments[member];
       chain.length += fragment.length + gaps[member];
       for (std::size_t end = 0; end < fragment.ends.size(); ++end) {
         chain.length += (fragment.ends[end].position - fragment.nodes[fragment.ends[end].node]).norm();
-        if (joined.contains({member, end})) continue;
-        if (fragment.ends[end].hidden > 0) chain.is_whole = false;
-        if (leaves_view(fragment.ends[end], radius, seen)) chain.is_cut = true;
+        if (!joined.contains({member, end}) && leaves_view(fragment.ends[end], radius, seen))
+          chain.is_cut = true;
       }
     }
     chains.push_back(chain);
   }
-  std::ranges::sort(chains, {}, &Chain::length);
   return chains;
 }
 
-// Those of the likeliest links, if no chain is longer than this, m.
-std::vector<Chain> chains_up_to(double longest, TubeKind kind, const std::vector<Fragment>& fragments,
-                                const RangeImage& seen, const LinkSettings& settings) {
-  kind.segments[0].length = longest;
-  const std::vector<Link> links = find_links(fragments, seen, kind, settings);
-  return chains_of(fragments, links, choose_links(fragments, links, kind, settings), kind.radius, seen);
-}
-
-std::vector<Chain> whole(std::vector<Chain> chains) {
-  std::erase_if(chains, [](const Chain& chain) { return !chain.is_whole; });
+// Those of a length, m, within a few percent. What the image cuts off may be longer.
+std::vector<Chain> as_long_as(double length, std::vector<Chain> chains) {
+  constexpr double tolerance = 0.035;
+  std::erase_if(chains, [&](const Chain& chain) {
+    return chain.is_cut || std::abs(chain.length - length) > tolerance * length;
+  });
   return chains;
 }
 
-std::vector<Chain> uncut(std::vector<Chain> chains) {
-  std::erase_if(chains, &Chain::is_cut);
-  return chains;
+// Those that chains of this length, m, can have.
+std::vector<Link> possible_links(double length, const std::vector<Fragment>& fragments,
+                                 std::vector<Link> links, const LinkSettings& settings) {
+  std::erase_if(links, [&](const Link& link) {
+    return fragments[link.fragment].length + link.gap + fragments[link.to.fragment].length >
+           length_max(length, settings);
+  });
+  return links;
 }
 
-double sum_of_lengths(std::span<const Chain> chains) {
-  return std::accumulate(chains.begin(), chains.end(), 0.0,
-                         [](double sum, const Chain& chain) { return sum + chain.length; });
-}
-
-// Of chains in ascending order, those within a few percent of each other that have the largest sum.
-std::span<const Chain> of_one_length(std::span<const Chain> chains) {
-  constexpr double tolerance = 0.05;
-  std::span<const Chain> best;
-  double most = 0;
-  for (std::size_t first = 0; first < chains.size(); ++first) {
-    const auto end =
-        std::ranges::upper_bound(chains, chains[first].length * (1 + tolerance), {}, &Chain::length);
-    const std::span<const Chain> alike(chains.begin() + static_cast<std::ptrdiff_t>(first), end);
-    const double sum = sum_of_lengths(alike);
-    if (sum <= most) continue;
-    best = alike;
-    most = sum;
-  }
-  return best;
-}
-
-/// The length that many of a scan's chains have.
-struct CommonLength {
-  double length;  ///< m
-  bool is_sure;   ///< so many have it that it may be used like one that was told
+/// A length that was tried as though it had been told.
+struct Trial {
+  double length;       ///< m; of the longest of the chains that have it
+  std::size_t chains;  ///< that have it
+  double evidence;     ///< log odds
 };
 
-constexpr std::size_t enough = 3;  // chains that agree
-
-// That of the fragments which are whole chains, if enough agree.
-std::optional<CommonLength> length_of_pieces(const std::vector<Fragment>& fragments, double radius,
-                                             const RangeImage& seen, double longest,
-                                             const LinkSettings& settings) {
-  const std::vector<Chain> pieces = whole(chains_of(fragments, {}, {}, radius, seen));
-  const std::span<const Chain> alike = of_one_length(pieces);
-  if (alike.size() < enough || length_max(alike.back().length, settings) < longest) return std::nullopt;
-  return CommonLength{alike[alike.size() / 2].length, true};
+// Tries a length, m. `links` are those of longer chains.
+Trial trial_of(double length, TubeKind kind, const std::vector<Fragment>& fragments, std::vector<Link> links,
+               const RangeImage& seen, const LinkSettings& settings) {
+  constexpr double of_a_chain = 20;  // evidence for its length
+  kind.segments[0].length = kind.length_min = length;
+  links = possible_links(length, fragments, std::move(links), settings);
+  const ChosenLinks chosen = choose_links(fragments, links, kind, settings);
+  const std::vector<Chain> chains =
+      as_long_as(length, chains_of(fragments, links, chosen.links, kind.radius, seen));
+  return {.length = chains.empty() ? length : std::ranges::max(chains, {}, &Chain::length).length,
+          .chains = chains.size(),
+          .evidence = chosen.log_odds + of_a_chain * static_cast<double>(chains.size())};
 }
 
-// That of linked chains: too low a bound breaks them at it, and at lengths that differ; any other leaves
-// those that most links make at theirs.
-std::optional<CommonLength> length_of_linked(const TubeKind& kind, const std::vector<Fragment>& fragments,
-                                             const RangeImage& seen, double longest,
-                                             const LinkSettings& settings) {
-  constexpr std::array bounds = {1.25, 1.6, 2.05, 2.6};  // against the longest fragment
-  constexpr double at_bound = 0.97;
-  constexpr double few = 0.2;  // of the length of all chains
-  constexpr double many = 0.3;
-  constexpr double nearly_all = 0.8;
-  constexpr double most = 0.5;
-  std::optional<CommonLength> common;
-  double best_share = 0;
-  for (const double bound : bounds) {
-    const std::vector<Chain> chains = chains_up_to(bound * longest, kind, fragments, seen, settings);
-    const std::vector<Chain> may_be_whole = uncut(chains);
-    const std::span<const Chain> alike = of_one_length(may_be_whole);
-    const double all = sum_of_lengths(chains);
-    const double share = sum_of_lengths(alike) / all;
-    const bool are_enough = alike.size() >= enough;
-    const bool few_will_do = are_enough && sum_of_lengths(may_be_whole) > nearly_all * all;
-    if (alike.empty() || share < best_share || alike.back().length > at_bound * bound * longest) continue;
-    if (share < (few_will_do ? few : many)) continue;
-    common = {alike.back().length, are_enough && share >= many};
-    best_share = share;
-    if (share > most) break;
+// Of the lengths from that of the longest fragment on, m, the one with the most evidence. At too small a
+// length, true links are missing; at too large a length, chains are seen to end before it.
+Trial likeliest_length(double longest, TubeKind kind, const std::vector<Fragment>& fragments,
+                       const RangeImage& seen, const LinkSettings& settings) {
+  constexpr double step = 1.03;
+  constexpr double most = 2.6;
+  kind.segments[0].length = most * longest;
+  const std::vector<Link> links = find_links(fragments, seen, kind, settings);
+  Trial likeliest{.length = longest, .chains = 0, .evidence = -std::numeric_limits<double>::infinity()};
+  for (double length = longest; length < most * longest; length *= step) {
+    const Trial trial = trial_of(length, kind, fragments, links, seen, settings);
+    if (trial.evidence > likeliest.evidence) likeliest = trial;
   }
-  return common;
-}
-
-std::optional<CommonLength> common_length(const TubeKind& kind, const std::vector<Fragment>& fragments,
-                                          const RangeImage& seen, double longest,
-                                          const LinkSettings& settings) {
-  const auto of_pieces = length_of_pieces(fragments, kind.radius, seen, longest, settings);
-  return of_pieces ? of_pieces : length_of_linked(kind, fragments, seen, longest, settings);
-}
-
-// A known length, unless it is too short for what is seen.
-TubeKind with_checked_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
-                             double longest, const LinkSettings& settings) {
-  if (longest <= length_max(kind.length(), settings)) return kind;
-  TubeKind unknown = kind;
-  unknown.length_min = 0;
-  const auto common = common_length(unknown, fragments, seen, longest, settings);
-  if (common && common->is_sure && common->length > length_max(kind.length(), settings))
-    kind.segments[0].length = common->length;
-  return kind;
-}
-
-TubeKind with_found_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
-                           double longest, const LinkSettings& settings) {
-  constexpr double hidden = 2;  // the length of a chain, against the longest fragment
-  if (const auto common = common_length(kind, fragments, seen, longest, settings)) {
-    kind.segments[0].length = std::max(common->length, longest);
-    if (common->is_sure) kind.length_min = kind.segments[0].length;
-    return kind;
-  }
-  const std::vector<Chain> seen_whole =
-      whole(chains_up_to(hidden * longest, kind, fragments, seen, settings));
-  kind.segments[0].length =
-      seen_whole.empty() ? hidden * longest : std::max(seen_whole.back().length, longest);
-  return kind;
+  return likeliest;
 }
 
 }  // namespace
 
 TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                      const LinkSettings& settings) {
+  constexpr std::size_t enough = 3;  // chains that agree
   if (kind.branches() || fragments.empty()) return kind;
   const double longest = std::ranges::max_element(fragments, {}, &Fragment::length)->length;
-  const auto with = kind.length_is_known() ? with_checked_length : with_found_length;
-  return with(std::move(kind), fragments, seen, longest, settings);
+  const bool is_known = kind.length_is_known();
+  if (is_known && longest <= length_max(kind.length(), settings)) return kind;
+  const Trial likeliest = likeliest_length(longest, kind, fragments, seen, settings);
+  const bool is_sure = likeliest.chains >= enough;
+  if (is_known && !is_sure) return kind;
+  kind.segments[0].length = std::max(likeliest.length, longest);
+  if (!is_known && is_sure) kind.length_min = kind.segments[0].length;
+  return kind;
 }
 
 }  // namespace tanglebin

@@ -9,11 +9,11 @@
 
 namespace tanglebin {
 
-/// A kind of chains, with a length, m, in place of an unknown one. It is the length that many chains share,
-/// when their pieces are linked: at least three that are seen from end to end in one piece, or three tenths
-/// of the length of all. If chains have no length in common, it is the longest that is seen from end to end,
-/// or else twice the longest fragment. A length that was given, or the largest of a range, stays, unless at
-/// least three chains agree that it is too short. Trees stay as they are.
+/// A kind of chains, with a length, m, in place of an unknown one: of the lengths from the longest fragment's
+/// on, each tried as though it had been told, the one with the most evidence. Evidence are the log odds of the
+/// links that are chosen, and the chains that come out as long as that. If at least three do, it is the
+/// length of all, else the largest. A length that was given, or the largest of a range, stays, unless
+/// fragments are longer and at least three chains agree that it is too short. Trees stay as they are.
 TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                      const LinkSettings& settings);
 

@@ -30,7 +30,7 @@ TubeKind tree_of(const SegmentTree& segments) {
 std::vector<Link> chosen_of(const std::vector<Fragment>& fragments, const TubeKind& kind) {
   const std::vector<Link> links = find_links(fragments, RangeImage({}, camera_preset("paper")), kind, {});
   std::vector<Link> chosen;
-  for (const std::size_t i : choose_links(fragments, links, kind, {})) chosen.push_back(links[i]);
+  for (const std::size_t i : choose_links(fragments, links, kind, {}).links) chosen.push_back(links[i]);
   return chosen;
 }
 

@@ -64,6 +64,16 @@ TEST(WithLength, IsThatOfTubesLongerThanAnyPieceThatIsSeen) {
   EXPECT_EQ(found.model.tubes.size(), 5U);
 }
 
+TEST(WithLength, OfTubesThatDifferIsTheLargest) {
+  const AxisModel found =
+      modelled_with({test::chain(1, 0.0125, {{-0.2, -0.1, 0.0125}, {-0.05, -0.1, 0.0125}}),
+                     test::chain(2, 0.0125, {{-0.2, 0, 0.0125}, {0.04, 0, 0.0125}}),
+                     test::chain(3, 0.0125, {{-0.2, 0.1, 0.0125}, {0.15, 0.1, 0.0125}})},
+                    0, infinite);
+  EXPECT_NEAR(found.kinds[0].length, 0.35, 0.01);
+  EXPECT_EQ(found.model.tubes.size(), 3U);
+}
+
 // Its ends are against the walls, which hide nothing.
 TEST(WithLength, CountsATubeBetweenTheWallsAsWhole) {
   const AxisModel found =
