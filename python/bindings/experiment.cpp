@@ -196,10 +196,13 @@ void bind_scene_scores(py::module_& module) {
 
 // Draws what results show; interruptible between two runs.
 template <typename Draw>
-void draw_results(const fs::path& dataset, const Draw& draw_from) {
+void draw_results(const fs::path& results, const fs::path& dataset, const ExperimentSettings& settings,
+                  const Draw& draw_from) {
   without_gil([&] {
     const std::lock_guard alone(simulation());
-    draw_from(read_dataset(dataset), ctrl_c_taker());
+    const Dataset read = read_dataset(dataset);
+    ModelAgain model_again(results, read, settings, ctrl_c_taker());
+    draw_from(read, model_again);
   });
 }
 
@@ -209,8 +212,8 @@ void bind_reports(py::module_& module) {
   module.def(
       "write_pictures",
       [](const fs::path& directory, const fs::path& dataset, const ExperimentSettings& settings) {
-        draw_results(dataset, [&](const Dataset& read, const auto& at_run) {
-          write_pictures(directory, read, settings, at_run);
+        draw_results(directory, dataset, settings, [&](const Dataset& read, ModelAgain& model_again) {
+          write_pictures(directory, read, settings, model_again);
         });
       },
       py::arg("directory"), py::arg("dataset"), py::arg("settings"), also(doc::write_pictures, note).c_str());
@@ -218,8 +221,8 @@ void bind_reports(py::module_& module) {
       "write_scenes",
       [](const fs::path& directory, const fs::path& dataset, const ExperimentSettings& settings,
          std::size_t count) {
-        draw_results(dataset, [&](const Dataset& read, const auto& at_run) {
-          write_scenes(directory, read, settings, count, at_run);
+        draw_results(directory, dataset, settings, [&](const Dataset& read, ModelAgain& model_again) {
+          write_scenes(directory, read, settings, count, model_again);
         });
       },
       py::arg("directory"), py::arg("dataset"), py::arg("settings"), py::arg("count") = 3,

@@ -1,6 +1,7 @@
 #include "tanglebin/report/model_again.hpp"
 
 #include <system_error>
+#include <utility>
 #include <variant>
 
 #include "tanglebin/base/error.hpp"
@@ -12,10 +13,12 @@ namespace tanglebin {
 
 namespace fs = std::filesystem;
 
-ModelAgain::ModelAgain(fs::path results, const Dataset& dataset, const ExperimentSettings& settings)
+ModelAgain::ModelAgain(fs::path results, const Dataset& dataset, const ExperimentSettings& settings,
+                       std::function<void()> at_run)
     : results_(std::move(results)),
       dataset_(dataset),
       settings_(settings),
+      at_run_(std::move(at_run)),
       scratch_(results_ / ".pictures.unfinished") {
   fs::remove_all(scratch_);
   make_directories(scratch_);
@@ -34,6 +37,7 @@ std::optional<Model> ModelAgain::operator()(const Entry& entry, const SeenCase& 
 }
 
 std::optional<Model> ModelAgain::model(const Entry& entry, const SeenCase& seen, const CaseData& data) const {
+  at_run_();
   const auto& [scene, scanner] = seen;
   const RunId run{entry.name, scene, ratio_to_show(settings_.ratios), scanner};
   const bool is_kept = std::holds_alternative<Command>(entry.what) && has_model(results_, run);

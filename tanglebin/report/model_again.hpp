@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -14,8 +15,11 @@ namespace tanglebin {
 /// were not kept, it runs once more for each case, however often the case is asked for.
 class ModelAgain {
 public:
-  /// A command's files are in a directory of their own in `results`, for the lifetime of this object.
-  ModelAgain(std::filesystem::path results, const Dataset& dataset, const ExperimentSettings& settings);
+  /// A command's files are in a directory of their own in `results`, for the lifetime of this object. Calls
+  /// `at_run` before each run; what it throws ends the work.
+  ModelAgain(
+      std::filesystem::path results, const Dataset& dataset, const ExperimentSettings& settings,
+      std::function<void()> at_run = [] {});
   ~ModelAgain();
   ModelAgain(const ModelAgain&) = delete;
   ModelAgain& operator=(const ModelAgain&) = delete;
@@ -30,6 +34,7 @@ private:
   std::filesystem::path results_;
   const Dataset& dataset_;
   const ExperimentSettings& settings_;
+  std::function<void()> at_run_;
   std::filesystem::path scratch_;
   std::map<std::pair<std::string, SeenCase>, std::optional<Model>> of_commands_;
 };

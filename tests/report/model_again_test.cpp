@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "tanglebin/experiment/run_experiment.hpp"
 #include "tests/experiment/small_dataset.hpp"
@@ -62,6 +63,12 @@ TEST_F(CountingCommand, DoesNotRunAgainIfItsModelsWereKept) {
   std::ptrdiff_t call = 0;
   for (const CaseId& id : wanted_) EXPECT_EQ(label(model_again, id), ++call) << "what was scored is shown";
   EXPECT_EQ(calls(), before);
+}
+
+TEST_F(CountingCommand, DoesNotRunAgainIfTheCallerHasHadEnough) {
+  ModelAgain model_again(results_.path(), dataset_, settings_, [] { throw std::runtime_error("enough"); });
+  EXPECT_THROW(label(model_again, wanted_.front()), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(calls_));
 }
 
 }  // namespace
