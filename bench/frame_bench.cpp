@@ -44,12 +44,16 @@ Recipe recipe_of_frame() {
 
 // What is not of the bin is a table on which it stands.
 void add_table(PointCloud& cloud, const Recipe& recipe) {
+  const Bin& bin = recipe.bin;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (cloud.points[i].allFinite() || i % 50 == 0) continue;
     const Ray ray = ray_through(recipe.camera, static_cast<double>(i % cloud.width),
                                 static_cast<double>(i / cloud.width));
     const double distance = (-recipe.bin.wall - ray.origin.z()) / ray.direction.z();
-    cloud.points[i] = (ray.origin + distance * ray.direction).cast<float>();
+    const Eigen::Vector3d point = ray.origin + distance * ray.direction;
+    const bool is_under_bin =
+        std::abs(point.x()) < bin.length / 2 + bin.wall && std::abs(point.y()) < bin.width / 2 + bin.wall;
+    if (!is_under_bin) cloud.points[i] = point.cast<float>();
   }
 }
 

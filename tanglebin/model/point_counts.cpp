@@ -51,7 +51,7 @@ public:
     if (!view_.is_inside(image)) return counts.outside_image;
     if (label > bin_label) return counts.on_tubes;
     if (label == bin_label) return counts.on_support;
-    if (!parts_.empty() && point.z() < parts_.front().min().z()) return counts.below_support;
+    if (!parts_.empty() && point.z() < parts_.front().min().z() + near_) return counts.below_support;
     if (!around_.contains(point)) return counts.cropped;
     return is_near_support(point) ? counts.near_support : counts.unexplained;
   }

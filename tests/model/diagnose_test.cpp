@@ -96,6 +96,26 @@ TEST(Diagnose, CountsEveryPointOnce) {
                            after.cropped + after.on_support + after.on_tubes + after.unexplained);
 }
 
+// Seen with noise, above and below its true height.
+TEST(Diagnose, IsNotTroubledByTheTableThatTheBinStandsOn) {
+  View view = right_view();
+  const Bin& bin = view.scene.support.bin;
+  const PointCounts before = model_of(view).counts;
+  const auto wall = static_cast<float>(bin.wall);
+  const auto x = static_cast<float>(bin.length / 2 + bin.wall);
+  for (int i = 0; i < 10'000; ++i) {
+    const auto along = static_cast<float>(i % 100) * 0.002F;
+    const auto across = static_cast<float>(i / 100) * 0.002F;
+    view.cloud.points.emplace_back(x + 0.02F + along, across - 0.1F,
+                                   -wall + (i % 2 == 0 ? 0.0005F : -0.0005F));
+  }
+  view.cloud.width = view.cloud.points.size();
+  const Model model = model_of(view);
+  EXPECT_GT(model.counts.below_support, before.below_support + 5'000) << "in the image";
+  EXPECT_EQ(model.counts.unexplained, before.unexplained);
+  EXPECT_EQ(text_of(model.findings), "");
+}
+
 TEST(Diagnose, WhatTheCameraCannotHaveSeenIsNullEvenOnTheBin) {
   View view = right_view();
   view.scene.camera.width /= 2;  // sees the left half

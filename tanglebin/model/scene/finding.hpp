@@ -11,7 +11,7 @@ struct PointCounts {
   std::size_t invalid = 0;        ///< without a finite position
   std::size_t behind_camera = 0;  ///< the camera cannot have seen them
   std::size_t outside_image = 0;  ///< nor these
-  std::size_t below_support = 0;  ///< under the bin's floor, or under the plane
+  std::size_t below_support = 0;  ///< under the bin's floor or the plane, or on what the bin stands on
   std::size_t cropped = 0;        ///< farther from the support than tubes can be
   std::size_t on_support = 0;     ///< labelled as the bin
   std::size_t on_tubes = 0;       ///< labelled as a tube
