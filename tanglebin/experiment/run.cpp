@@ -1,6 +1,7 @@
 #include "tanglebin/experiment/run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -20,6 +21,18 @@ TubeKind known_kind(const TubeSpec& spec) {
   TubeKind kind{.radius = spec.radius, .segments = segments_of(spec), .flat_ends = spec.flat_ends};
   kind.length_min = kind.length();
   return kind;
+}
+
+// Chains whose lengths differ from tube to tube: the range of those of the nearest radius.
+void widen_lengths(std::vector<TubeKind>& kinds, const std::vector<TubeSpec>& each_tube) {
+  for (const TubeSpec& spec : each_tube) {
+    const TubeKind tube = known_kind(spec);
+    TubeKind& kind = *std::ranges::min_element(
+        kinds, {}, [&](const TubeKind& known) { return std::abs(known.radius - tube.radius); });
+    if (kind.branches() || tube.branches()) continue;
+    kind.segments[0].length = std::max(kind.length(), tube.length());
+    kind.length_min = std::min(kind.length_min, tube.length());
+  }
 }
 
 PointCloud unorganized(std::vector<Eigen::Vector3f> points, std::vector<std::int32_t> labels) {
@@ -45,7 +58,8 @@ std::string case_sha256(const Dataset& dataset, const CaseId& id) {
 
 KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
   KnownScene known{.support = {.bin = recipe.bin}, .camera = recipe.camera, .kinds = {}};
-  for (const TubeSpec& spec : set_named(recipe, id.set).kinds) {
+  const SetRecipe& set = set_named(recipe, id.set);
+  for (const TubeSpec& spec : set.kinds) {
     const TubeKind kind = known_kind(spec);
     const auto same = std::ranges::find(known.kinds, kind.radius, &TubeKind::radius);
     if (same == known.kinds.end()) {
@@ -57,6 +71,7 @@ KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
       *same = kind;
     same->length_min = shortest;
   }
+  widen_lengths(known.kinds, set.each_tube);
   return known;
 }
 

@@ -48,7 +48,8 @@ inline SeenCase seen_case(const RunId& run) {
 std::string case_sha256(const Dataset& dataset, const CaseId& id);
 
 /// The scene as known from the recipe of a case: the bin, the camera, and radius and segments of each kind of
-/// tube. Of kinds with the same radius, the one with the most segments counts; among these, the longest.
+/// tube. Of kinds with the same radius, the one with the most segments counts; among these, the longest. Of
+/// lengths that differ from tube to tube, their range is known.
 KnownScene known_scene(const Recipe& recipe, const CaseId& id);
 
 /// The same, but with what `told` says instead, and with what that leaves open estimated from the case's

@@ -75,6 +75,19 @@ TEST(KnownScene, KnowsKindsOfTubesNotEachTube) {
   EXPECT_EQ(known.kinds[0].radius, recipe.sets[0].kinds[0].radius);
 }
 
+TEST(KnownScene, KnowsTheRangeOfLengthsThatDifferFromTubeToTube) {
+  Recipe recipe = test::small_recipe();
+  std::vector<TubeSpec> tubes(3, recipe.sets[0].kinds[0]);
+  const double middle = tubes[1].segments[0].length;
+  tubes[0].segments[0].length = 0.75 * middle;
+  tubes[2].segments[0].length = 1.5 * middle;
+  recipe.sets[0].each_tube = tubes;
+  const KnownScene known = known_scene(recipe, {"A", 3, 1});
+  ASSERT_EQ(known.kinds.size(), 1U);
+  EXPECT_EQ(known.kinds[0].length_min, 0.75 * middle);
+  EXPECT_EQ(known.kinds[0].length(), 1.5 * middle);
+}
+
 TEST(ScoreModel, LooksAtThePointsThatTheFilterLeftAlone) {
   const CaseData data{"1.ply", cloud_of({0, 1, 1, 1, 2, 2}), tubes(2)};
   const Model model{.tubes = tubes(2), .labels = {1, 2, 2, -1, 1, -1}, .filtered = {0, 1, 2, 4}, .steps = {}};
