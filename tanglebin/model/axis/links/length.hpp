@@ -9,11 +9,11 @@
 
 namespace tanglebin {
 
-/// A kind of chains, with a length, m, in place of an unknown one: of the lengths from the longest fragment's
-/// on, each tried as though it had been told, the one with the most evidence. Evidence are the log odds of
-/// the links that are chosen, and the chains that come out as long as that. If at least three do, it is the
-/// length of all, else the largest. A length that was given, or the largest of a range, stays, unless
-/// fragments are longer and at least three chains agree that it is too short. Trees stay as they are.
+/// A kind of chains, with a length, m, in place of an unknown one. Each length from the longest fragment's on
+/// is tried as though it had been told, and the one with the most evidence counts: the log odds of the links
+/// that are chosen, and the chains that come out as long as that. If at least three do, it is the length of
+/// all, else the largest. A length that was given, or the largest of a range, stays, unless fragments are
+/// longer and at least three chains agree that it is too short. Trees stay as they are.
 TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                      const LinkSettings& settings);
 
