@@ -49,7 +49,7 @@ void add_table(PointCloud& cloud, const Recipe& recipe) {
     if (cloud.points[i].allFinite() || i % 50 == 0) continue;
     const Ray ray = ray_through(recipe.camera, static_cast<double>(i % cloud.width),
                                 static_cast<double>(i / cloud.width));
-    const double distance = (-recipe.bin.wall - ray.origin.z()) / ray.direction.z();
+    const double distance = (-bin.wall - ray.origin.z()) / ray.direction.z();
     const Eigen::Vector3d point = ray.origin + distance * ray.direction;
     const bool is_under_bin =
         std::abs(point.x()) < bin.length / 2 + bin.wall && std::abs(point.y()) < bin.width / 2 + bin.wall;
