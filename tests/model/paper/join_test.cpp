@@ -21,7 +21,7 @@ Cylinder piece(const Vector3d& a, const Vector3d& b) {
   return {{a, b}, {}};
 }
 
-Camera camera() {
+Camera papers_camera() {
   return camera_preset("paper");
 }
 
@@ -31,11 +31,11 @@ RangeImage lid() {
   for (float x = -0.4F; x < 0.4F; x += 0.001F) {
     for (float y = -0.3F; y < 0.3F; y += 0.001F) cloud.points.emplace_back(x, y, 0.6F);
   }
-  return {cloud.points, camera()};
+  return {cloud.points, papers_camera()};
 }
 
 RangeImage nothing_seen() {
-  return {{}, camera()};
+  return {{}, papers_camera()};
 }
 
 TEST(JoinMeasures, AreDistanceAndTurnsOfTheFormula) {

@@ -14,11 +14,11 @@ namespace {
 using Eigen::Vector3d;
 using test::radius;
 
-constexpr double step = 0.005;  // m, between nodes
+constexpr double spacing = 0.005;  // m, between nodes
 
 // Goes on from a node to places in a row; the last node.
 std::size_t extend(LineTree& line, std::size_t node, const Vector3d& first, const Vector3d& last) {
-  const int steps = static_cast<int>(std::round((last - first).norm() / step));
+  const int steps = static_cast<int>(std::round((last - first).norm() / spacing));
   for (int i = 0; i <= steps; ++i) {
     line.edges.push_back({node, line.nodes.size()});
     node = line.nodes.size();
@@ -33,10 +33,10 @@ LineTree fork(double angle, double parted, const Vector3d& stem) {
   LineTree line;
   const Vector3d junction(parted, 0, 0);
   line.nodes.push_back(junction);
-  extend(line, 0, junction + step * (stem - junction).normalized(), stem);
+  extend(line, 0, junction + spacing * (stem - junction).normalized(), stem);
   for (const double side : {1.0, -1.0}) {
     const Vector3d way(std::cos(angle), side * std::sin(angle), 0);
-    extend(line, 0, (parted + step) / std::cos(angle) * way, 0.1 * way);
+    extend(line, 0, (parted + spacing) / std::cos(angle) * way, 0.1 * way);
   }
   return line;
 }
@@ -76,7 +76,7 @@ TEST(Junctions, StayWhereTheBranchesDoNotMeetOnTheStem) {
 TEST(Junctions, OfAChainAreNone) {
   LineTree line;
   line.nodes.emplace_back(0, 0, 0);
-  extend(line, 0, {step, 0, 0}, {0.2, 0, 0});
+  extend(line, 0, {spacing, 0, 0}, {0.2, 0, 0});
   EXPECT_EQ(with_junctions_drawn_back(line, radius).nodes, line.nodes);
 }
 
