@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "tanglebin/dataset/seen_case.hpp"
-#include "tanglebin/model/confidence.hpp"
+#include "tanglebin/model/scene/confidence.hpp"
 
 namespace tanglebin {
 

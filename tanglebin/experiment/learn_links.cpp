@@ -191,6 +191,7 @@ std::vector<EndExample> end_examples(const Dataset& dataset, const SeenCase& see
   AxisSettings settings;
   constexpr double any = 1e9;
   settings.link.chain_prior = settings.link.tree_prior = settings.link.junction_prior = any;
+  settings.fragment.sure_min = 0;  // any way of cutting the votes is an example
   const KnownScene known = known_scene(recipe_seen(dataset, seen), seen.scene);
   const AxisModel found = model_by_axes(data.cloud, known, 1, 0, settings);
   std::vector<EndExample> examples;

@@ -6,7 +6,6 @@
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/model/axis/axis_method.hpp"
 #include "tanglebin/model/diagnose.hpp"
-#include "tanglebin/model/evidence.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
 #include "tanglebin/model/point_counts.hpp"
 #include "tanglebin/model/scene/support_frame.hpp"
@@ -22,7 +21,6 @@ Model model_here(const PointCloud& cloud, const KnownScene& known, const ModelSe
   Model model = as_in_paper ? model_as_in_paper(cloud, known, ratio, seed, paper, at_step).model
                             : model_by_axes(cloud, known, ratio, seed, axis, at_step).model;
   count_points(model, cloud, known, as_in_paper ? paper.filter : axis.filter);
-  weigh(model, cloud, known);
   return model;
 }
 

@@ -1,9 +1,11 @@
 #include "tanglebin/model/axis/axis_method.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/geometry/labels.hpp"
@@ -16,6 +18,7 @@
 #include "tanglebin/model/axis/links/length.hpp"
 #include "tanglebin/model/scene/range_image.hpp"
 #include "tanglebin/model/scene/step_clock.hpp"
+#include "tanglebin/model/scene/weigh.hpp"
 
 namespace tanglebin {
 namespace {
@@ -122,48 +125,48 @@ bool is_false_speck(const AxisSteps& steps, const std::vector<std::size_t>& memb
   return unseen_length(length, hidden, kind, settings) > 0;
 }
 
-std::size_t number_of_votes(const AxisSteps& steps) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(steps.votes.votes, [](const Vector3f& vote) { return vote.allFinite(); }));
+/// The points that the filter kept, and what they vote for.
+struct Voting {
+  std::vector<std::size_t> filtered;  ///< the points' indices in the cloud
+  std::vector<Vector3f> points;       ///< m
+  std::vector<AxisVotes> of_kinds;    ///< for each kind of tube
+};
+
+std::size_t number_of_votes(const Voting& voting) {
+  std::size_t sum = 0;
+  for (const AxisVotes& votes : voting.of_kinds) {
+    sum += static_cast<std::size_t>(
+        std::ranges::count_if(votes.votes, [](const Vector3f& vote) { return vote.allFinite(); }));
+  }
+  return sum;
 }
 
-}  // namespace
+/// What is modelled.
+struct Scan {
+  const PointCloud& cloud;
+  const Cropped& cropped;
+  const KnownScene& known;
+};
 
-AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double ratio, std::uint64_t seed,
-                        const AxisSettings& given, const std::function<void()>& at_step) {
+// The steps from votes to labels. The grid of voxels that the votes are sorted into is moved by `shift`.
+AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& scan,
+                      const AxisSettings& settings, double shift, const std::function<void()>& at_step) {
+  const auto& [cloud, cropped, known] = scan;
   AxisModel result;
   Model& model = result.model;
+  model.filtered = voting.filtered;
+  for (const AxisVotes& votes : voting.of_kinds) result.kinds.emplace_back().votes = votes;
   StepClock clock(model.steps, at_step);
-  const auto for_each_kind = [&](auto step) {
-    for (std::size_t i = 0; i < known.kinds.size(); ++i) step(result.kinds[i], known.kinds[i]);
+  const auto for_each_kind = [&, &kinds = known.kinds](auto step) {
+    for (std::size_t i = 0; i < kinds.size(); ++i) step(result.kinds[i], kinds[i]);
   };
 
-  const Cropped cropped = crop(cloud, known.support, given.filter);
-  model.filtered = downsample(cropped.kept, ratio, seed);
-  const std::vector<Vector3f> points = picked(cloud.points, model.filtered);
-  const Ramps ramps = ramps_in(cloud, known, given.ramp);
-  const bool has_ramps = ramps.blended >= given.ramp.blended_min;
-  const AxisSettings settings = has_ramps ? given : for_sharp_edges(given);
-  const std::vector<Vector3f> voters = has_ramps ? without(ramps, points, model.filtered) : points;
-  clock.end_step("filter", points.size(), "points");
-
-  const std::vector<std::vector<Vector3f>> by_kind =
-      points_by_kind(voters, known, settings.vote, settings.fragment);
-  result.kinds.resize(known.kinds.size());
-  for (std::size_t i = 0; i < known.kinds.size(); ++i) {
-    result.kinds[i].votes =
-        vote_for_axes(by_kind[i], known.support, known.camera, known.kinds[i].radius, settings.vote);
-  }
-  clock.end_step("vote", total(result.kinds, number_of_votes), "votes");
-
   for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
-    steps.fragments = find_fragments(steps.votes, kind.radius, kind.branches(), settings.fragment);
+    steps.fragments = find_fragments(steps.votes, kind.radius, kind.branches(), settings.fragment, shift);
   });
   clock.end_step("fragment", total(result.kinds, [](const auto& steps) { return steps.fragments.size(); }),
                  "fragments");
 
-  const RangeImage seen(points_seen(cloud, cropped, model.filtered, ratio, seed), known.camera,
-                        solid_parts(known.support));
   for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
     look_beyond_ends(steps.fragments, known_kind.radius, seen);
     const TubeKind kind = with_length(known_kind, steps.fragments, seen, settings.link);
@@ -179,8 +182,10 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
     std::erase_if(steps.tubes, [&](const std::vector<std::size_t>& fragments) {
       if (is_false_speck(steps, fragments, kind, settings.link)) return true;
-      Tube tube = fit_tube(steps.fragments, fragments, steps.links, steps.chosen, points, kind, settings.fit);
-      if (!is_tube(tube, roundness(tube, steps.fragments, fragments, points, steps.votes, known.camera),
+      Tube tube =
+          fit_tube(steps.fragments, fragments, steps.links, steps.chosen, voting.points, kind, settings.fit);
+      if (!is_tube(tube,
+                   roundness(tube, steps.fragments, fragments, voting.points, steps.votes, known.camera),
                    known.support))
         return true;
       tube.id = static_cast<int>(model.tubes.size()) + 1;
@@ -199,7 +204,70 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
                  static_cast<std::size_t>(std::ranges::count_if(
                      model.labels, [](std::int32_t label) { return label > bin_label; })),
                  "points");
+  weigh(model, cloud, known);
   return result;
+}
+
+// How many points are expected to be on the right tube.
+double probably_right(const Model& model) {
+  double sum = 0;
+  for (const TubeEvidence& tube : model.evidence) sum += tube.confidence * static_cast<double>(tube.points);
+  return sum;
+}
+
+bool is_sure(const Model& model, double share_min) {
+  double points = 0;
+  for (const TubeEvidence& tube : model.evidence) points += static_cast<double>(tube.points);
+  return probably_right(model) >= share_min * points;
+}
+
+void add_times(std::vector<Step>& steps, const std::vector<Step>& others) {
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i].seconds += others[i].seconds;
+}
+
+// Where voxels begin is arbitrary. But where votes are noisy, it decides what hangs together. In voxels.
+constexpr std::array grid_shifts = {0.0, 0.5, 0.25, 0.75};
+
+}  // namespace
+
+AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double ratio, std::uint64_t seed,
+                        const AxisSettings& given, const std::function<void()>& at_step) {
+  std::vector<Step> steps;
+  StepClock clock(steps, at_step);
+
+  const Cropped cropped = crop(cloud, known.support, given.filter);
+  Voting voting{downsample(cropped.kept, ratio, seed), {}, {}};
+  voting.points = picked(cloud.points, voting.filtered);
+  const Ramps ramps = ramps_in(cloud, known, given.ramp);
+  const bool has_ramps = ramps.blended >= given.ramp.blended_min;
+  const AxisSettings settings = has_ramps ? given : for_sharp_edges(given);
+  const std::vector<Vector3f> voters =
+      has_ramps ? without(ramps, voting.points, voting.filtered) : voting.points;
+  clock.end_step("filter", voting.points.size(), "points");
+
+  const std::vector<std::vector<Vector3f>> by_kind =
+      points_by_kind(voters, known, settings.vote, settings.fragment);
+  for (std::size_t i = 0; i < known.kinds.size(); ++i) {
+    voting.of_kinds.push_back(
+        vote_for_axes(by_kind[i], known.support, known.camera, known.kinds[i].radius, settings.vote));
+  }
+  clock.end_step("vote", number_of_votes(voting), "votes");
+
+  const RangeImage seen(points_seen(cloud, cropped, voting.filtered, ratio, seed), known.camera,
+                        solid_parts(known.support));
+  AxisModel best;
+  for (const double shift : grid_shifts) {
+    AxisModel tried = model_votes(voting, seen, {cloud, cropped, known}, settings, shift, at_step);
+    if (shift == grid_shifts.front()) {
+      best = std::move(tried);
+    } else {
+      if (probably_right(tried.model) > probably_right(best.model)) std::swap(best, tried);
+      add_times(best.model.steps, tried.model.steps);
+    }
+    if (is_sure(best.model, settings.fragment.sure_min)) break;
+  }
+  best.model.steps.insert(best.model.steps.begin(), steps.begin(), steps.end());
+  return best;
 }
 
 }  // namespace tanglebin

@@ -66,7 +66,7 @@ double trust_of(double distance, double gate) {
 }
 
 /// Sums over a block of 0.15 m.
-struct Block {
+struct PlaneBlock {
   double weight = 0;
   double sum = 0;  // of distances, m
 };
@@ -76,12 +76,12 @@ std::pair<long, long> block_of(const Vector3d& local) {
   return {std::lround(local.x() / size), std::lround(local.y() / size)};
 }
 
-using Blocks = std::map<std::pair<long, long>, Block>;
+using Blocks = std::map<std::pair<long, long>, PlaneBlock>;
 
 Blocks blocks_of(const std::vector<Vector3d>& local, double gate) {
   Blocks blocks;
   for (const Vector3d& point : local) {
-    Block& block = blocks[block_of(point)];
+    PlaneBlock& block = blocks[block_of(point)];
     block.weight += trust_of(point.z(), gate);
     block.sum += trust_of(point.z(), gate) * point.z();
   }

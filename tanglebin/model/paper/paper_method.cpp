@@ -7,6 +7,7 @@
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/model/scene/range_image.hpp"
 #include "tanglebin/model/scene/step_clock.hpp"
+#include "tanglebin/model/scene/weigh.hpp"
 
 namespace tanglebin {
 namespace {
@@ -78,6 +79,7 @@ PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, d
                  static_cast<std::size_t>(std::ranges::count_if(
                      model.labels, [](std::int32_t label) { return label > bin_label; })),
                  "points");
+  weigh(model, cloud, known);
   return result;
 }
 

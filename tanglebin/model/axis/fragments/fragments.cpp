@@ -141,13 +141,14 @@ double points_on_a_radius(const std::vector<Fragment>& fragments, double radius)
 }
 
 std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
-                                     const FragmentSettings& settings) {
+                                     const FragmentSettings& settings, double shift) {
   const CutSettings cut{.branch_min = settings.branch_min * radius,
                         .spread_max = settings.spread_max * radius,
                         .share_min = settings.share_min,
                         .weak_max = settings.weak_max,
                         .parallel_max = settings.parallel_max,
-                        .may_branch = with_branches};
+                        .may_branch = with_branches,
+                        .shift = shift};
   std::vector<Fragment> fragments;
   for (Skeleton& skeleton :
        find_skeletons(votes.votes, votes.normals, settings.voxel * radius, settings.step * radius, cut)) {

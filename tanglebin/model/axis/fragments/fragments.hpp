@@ -30,7 +30,8 @@ struct Fragment {
 double points_on_a_radius(const std::vector<Fragment>& fragments, double radius);
 
 /// Finds the fragments: thin clusters of votes. Centre lines branch only if `with_branches`. `radius` in m.
+/// The votes are sorted into voxels, which are moved by `shift` voxels along each axis.
 std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
-                                     const FragmentSettings& settings);
+                                     const FragmentSettings& settings, double shift = 0);
 
 }  // namespace tanglebin

@@ -50,13 +50,14 @@ struct VoxelGrid {
 };
 
 VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
-                      double size) {
+                      double size, double shift) {
+  const Vector3d origin = Vector3d::Constant(shift * size);
   VoxelGrid grid{{}, std::vector(points.size(), no_index)};
   std::unordered_map<std::uint64_t, std::size_t> at;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) continue;
     const Vector3d point = points[i].cast<double>();
-    const Vector3i key = voxel_at(point, size);
+    const Vector3i key = voxel_at(point - origin, size);
     const auto [found, is_new] = at.try_emplace(voxel_key(key), grid.voxels.size());
     if (is_new) grid.voxels.push_back({key});
     Voxel& voxel = grid.voxels[found->second];
@@ -432,7 +433,7 @@ std::vector<Skeleton> find_skeletons(const std::vector<Eigen::Vector3f>& points,
 std::vector<Skeleton> find_skeletons(const std::vector<Eigen::Vector3f>& points,
                                      const std::vector<Eigen::Vector3f>& normals, double voxel, double step,
                                      const CutSettings& settings) {
-  VoxelGrid grid = fill_voxels(points, normals, voxel);
+  VoxelGrid grid = fill_voxels(points, normals, voxel, settings.shift);
   Cutter cutter(grid, step, settings);
   cutter.cut(all_of(grid));
   return cutter.skeletons();

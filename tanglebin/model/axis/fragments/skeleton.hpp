@@ -21,6 +21,7 @@ struct CutSettings {
   double weak_max;      ///< median numbers of votes; voxels with fewer are left out from the start
   double parallel_max;  ///< length of the mean of the normals in a voxel; more is a plane
   bool may_branch;      ///< whether the skeleton may have branches
+  double shift = 0;     ///< voxels, by which the grid of voxels is moved along each axis
 };
 
 /// Finds connected thin sets of points (m; NaN points are in none). Points in touching voxels of size `voxel`

@@ -33,7 +33,7 @@ struct VoteSettings {
   PatchSettings patch;
   double facing_min = 0.3;     ///< cosine of the angle between normal and view; where there are ramps
   double floor_margin = 0.5;   ///< radii; points nearer to the floor are not on a visible tube
-  double bin_tolerance = 0.3;  ///< radii, by which an axis may be nearer to the bin than one radius
+  double bin_tolerance = 0.5;  ///< radii, by which an axis may be nearer to the bin than one radius
 };
 
 /// Fragment: finds thin clusters of votes and their centre lines.
@@ -51,6 +51,7 @@ struct FragmentSettings {
   double parallel_max = 0.96;  ///< length of the mean normal of a voxel; more are on a plane
   int points_min = 8;          ///< fragments with fewer points are dropped
   double speck_max = 0.05;     ///< and those with less than this share of the points on a radius of length
+  double sure_min = 0.95;      ///< share of the points that are probably right; with less, votes are cut again
 };
 
 /// Join: which links are possible, and their weights.

@@ -1,4 +1,4 @@
-#include "tanglebin/model/evidence.hpp"
+#include "tanglebin/model/scene/weigh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tanglebin/model/confidence.hpp"
+#include "tanglebin/model/scene/confidence.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tanglebin/model/evidence.hpp"
+#include "tanglebin/model/scene/weigh.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "tanglebin/model/confidence.hpp"
+#include "tanglebin/model/scene/confidence.hpp"
 
 namespace tanglebin {
 namespace {

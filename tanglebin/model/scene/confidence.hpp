@@ -17,10 +17,11 @@ inline constexpr std::size_t confidence_features = 8;
 using ConfidenceFeatures = std::array<double, confidence_features>;
 ConfidenceFeatures features_of(const TubeEvidence& evidence, const TubeKind& kind);
 
-/// Learned by `tanglebin learn --confidence` from recipes/confidence.toml and
-/// recipes/confidence-zivid.toml, rounded to four decimals.
-inline constexpr ConfidenceFeatures learned_confidence = {-0.6458, 1.4743,  -8.7364, -3.8921,
-                                                          -1.9876, -8.2361, -7.0669, 1.0000};
+/// Learned by `tanglebin learn --confidence` from recipes/confidence.toml, recipes/confidence-zivid.toml and
+/// bars (recipes/bars.toml --seed 16 --tubes 5,10,15 --cases 1-20), twice, since they choose the model too
+/// (axis_method.cpp); rounded to four decimals.
+inline constexpr ConfidenceFeatures learned_confidence = {2.4853,  0.6272,   -5.5845, -5.3480,
+                                                          -1.1498, -17.4719, -3.6782, 0.7086};
 
 /// The probability that the tube is one whole true tube: that at least 95 % of its points are on that tube,
 /// and that at least 95 % of that tube's points in the cloud are its own. Mixed points, which lie between
