@@ -203,6 +203,55 @@ TEST(AxisMethod, DoesNotDependOnTheScale) {
   for (const float scale : {0.25F, 0.5F, 2.0F, 4.0F}) EXPECT_EQ(labels_at(scale), labels) << scale;
 }
 
+// Bars on a table whose height is known to 2 mm.
+TEST(AxisMethod, FindsTubesThatLieLowerThanTheKnownFloorAllows) {
+  PointCloud cloud = scanned({test::straight_tube(1, 0), test::straight_tube(2, 0.05)});
+  for (Eigen::Vector3f& point : cloud.points) point.z() -= 0.0045F;
+  const AxisModel found = modelled(cloud);
+  ASSERT_EQ(found.model.tubes.size(), 2U);
+  for (const Tube& tube : found.model.tubes) EXPECT_NEAR(total_length(tube), 0.5, 0.01);
+}
+
+// Three tubes in so much noise that their votes hardly hang together.
+TEST(AxisMethod, CutsVotesAgainWhereItIsNotSureAndKeepsWhatIsProbablyRight) {
+  const auto probably_right = [](const Model& model) {
+    double sum = 0;
+    for (const TubeEvidence& tube : model.evidence) sum += tube.confidence * static_cast<double>(tube.points);
+    return sum;
+  };
+  const auto step_names = [](const Model& model) {
+    std::vector<std::string> names;
+    for (const Step& step : model.steps) names.push_back(step.name);
+    return names;
+  };
+  KnownScene known = paper_scene();
+  known.kinds[0].segments = {{1, 2, 0.5}};
+  Rng rng(5);
+  int better = 0;
+  constexpr int heaps = 5;
+  for (int heap = 0; heap < heaps; ++heap) {
+    PointCloud cloud =
+        scanned({test::straight_tube(1, -0.05), test::straight_tube(2, -0.02), test::straight_tube(3, 0.04)});
+    for (Eigen::Vector3f& point : cloud.points) {
+      for (int axis = 0; axis < 3; ++axis)
+        point[axis] += static_cast<float>(uniform_real(rng, -0.004, 0.004));
+    }
+    const auto model = [&](double sure_min) {
+      AxisSettings settings;
+      settings.fragment.sure_min = sure_min;
+      return model_by_axes(cloud, known, 1, 1, settings).model;
+    };
+    const Model once = model(0);
+    const Model again = model(1);
+    EXPECT_GE(probably_right(again), probably_right(once));
+    EXPECT_THAT(step_names(again),
+                testing::ElementsAre("filter", "vote", "fragment", "join", "fit", "label"));
+    EXPECT_EQ(step_names(once), step_names(again));
+    better += probably_right(again) > probably_right(once) ? 1 : 0;
+  }
+  EXPECT_GT(better, 0);
+}
+
 // The top of a ball as thick as the tube: fifty points, of which half a radius of the tube has more.
 TEST(AxisMethod, FindsNoTubeInASpeckBesideOne) {
   PointCloud cloud = scanned({test::straight_tube(1, 0)});

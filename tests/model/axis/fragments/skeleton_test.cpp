@@ -64,6 +64,30 @@ TEST(Skeletons, FollowACurveFromEndToEnd) {
   for (const Vector3d& node : found[0].nodes) EXPECT_NEAR(node.head<2>().norm(), radius, 0.0005);
 }
 
+// A shifted grid sees what the points show that are moved the other way.
+TEST(Skeletons, FollowTheGridOfVoxels) {
+  std::vector<Vector3f> here;
+  add_line(here, {0.0011F, 0.0007F, 0.0013F}, {0.07F, 0.03F, 0.01F});
+  constexpr double shift = 0.5;  // voxels
+  std::vector<Vector3f> moved = here;
+  for (Vector3f& point : moved) point.array() -= static_cast<float>(shift * voxel);
+  CutSettings settings{.branch_min = branch_min,
+                       .spread_max = std::numeric_limits<double>::infinity(),
+                       .share_min = 0,
+                       .weak_max = 0,
+                       .parallel_max = 1,
+                       .may_branch = true};
+  const std::vector<Skeleton> plain = find_skeletons(moved, {}, voxel, step, settings);
+  settings.shift = shift;
+  const std::vector<Skeleton> shifted = find_skeletons(here, {}, voxel, step, settings);
+  ASSERT_EQ(shifted.size(), plain.size());
+  ASSERT_EQ(shifted[0].nodes.size(), plain[0].nodes.size());
+  for (std::size_t node = 0; node < plain[0].nodes.size(); ++node) {
+    const Vector3d back = shifted[0].nodes[node].array() - shift * voxel;
+    EXPECT_LT((back - plain[0].nodes[node]).norm(), 1e-6);
+  }
+}
+
 TEST(Skeletons, OfSeparateCurvesAreSeparate) {
   std::vector<Vector3f> points;
   add_line(points, {0, 0, 0}, {0.1, 0, 0});
