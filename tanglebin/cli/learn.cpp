@@ -170,8 +170,8 @@ void add_learn(CLI::App& app) {
   command->footer(
       "Example:\n  tanglebin learn dataset --out profile.toml\n"
       "The built-in weights are from recipes/learning.toml; those of the confidence from "
-      "recipes/confidence.toml and\n"
-      "recipes/confidence-zivid.toml (docs/algorithm.md).");
+      "recipes/confidence.toml,\n"
+      "recipes/confidence-zivid.toml and recipes/bars.toml (docs/robustness.md#confidence).");
   command->callback([arguments] { learn(*arguments); });
 }
 

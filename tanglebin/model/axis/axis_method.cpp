@@ -215,10 +215,13 @@ double probably_right(const Model& model) {
   return sum;
 }
 
-bool is_sure(const Model& model, double share_min) {
+// Whether other cuts may do better. In a cloud of noise, they will not.
+bool is_in_doubt(const Model& model, double sure_min) {
+  constexpr double hopeless = 0.2;
   double points = 0;
   for (const TubeEvidence& tube : model.evidence) points += static_cast<double>(tube.points);
-  return probably_right(model) >= share_min * points;
+  const double right = probably_right(model);
+  return right < sure_min * points && right >= hopeless * points;
 }
 
 void add_times(std::vector<Step>& steps, const std::vector<Step>& others) {
@@ -264,7 +267,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
       if (probably_right(tried.model) > probably_right(best.model)) std::swap(best, tried);
       add_times(best.model.steps, tried.model.steps);
     }
-    if (is_sure(best.model, settings.fragment.sure_min)) break;
+    if (!is_in_doubt(best.model, settings.fragment.sure_min)) break;
   }
   best.model.steps.insert(best.model.steps.begin(), steps.begin(), steps.end());
   return best;

@@ -252,6 +252,22 @@ TEST(AxisMethod, CutsVotesAgainWhereItIsNotSureAndKeepsWhatIsProbablyRight) {
   EXPECT_GT(better, 0);
 }
 
+TEST(AxisMethod, DoesNotCutTheVotesOfNoiseAgain) {
+  Rng rng(8);
+  PointCloud noise;
+  for (int i = 0; i < 20000; ++i) {
+    const double x = uniform_real(rng, -0.2, 0.2);
+    const double y = uniform_real(rng, -0.15, 0.15);
+    noise.points.push_back(Vector3d(x, y, uniform_real(rng, 0.02, 0.15)).cast<float>());
+  }
+  KnownScene known = paper_scene();
+  known.kinds[0].segments = {{1, 2, 0.5}};
+  int steps = 0;
+  const AxisModel found = model_by_axes(noise, known, 1, 1, {}, [&] { ++steps; });
+  EXPECT_THAT(found.model.tubes, testing::Not(IsEmpty()));
+  EXPECT_EQ(steps, 6);
+}
+
 // The top of a ball as thick as the tube: fifty points, of which half a radius of the tube has more.
 TEST(AxisMethod, FindsNoTubeInASpeckBesideOne) {
   PointCloud cloud = scanned({test::straight_tube(1, 0)});
