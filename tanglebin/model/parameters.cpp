@@ -123,8 +123,8 @@ void for_each_parameter(Settings& settings, Visit visit) {
   visit({"axis.fragment.speck_max", "and those with less than this share of the points on a radius of length",
          by_factors(0.01, 1)},
         settings.axis.fragment.speck_max);
-  visit({"axis.fragment.sure_min",
-         "share of the points that are probably right; with less, votes are cut again", by_steps(0, 1)},
+  visit({"axis.fragment.sure_min", "share of points probably right; with less, votes are cut again",
+         by_steps(0, 1)},
         settings.axis.fragment.sure_min);
   visit({"axis.link.angle_max", "rad, α", by_steps(0.8, 6.3)}, settings.axis.link.angle_max);
   visit({"axis.link.length_tolerance", "how much longer than known a tube may be, as a fraction",
