@@ -151,14 +151,14 @@ struct Scan {
 // The steps from votes to labels. The grid of voxels that the votes are sorted into is moved by `shift`.
 AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& scan,
                       const AxisSettings& settings, double shift, const std::function<void()>& at_step) {
-  const auto& [cloud, cropped, known] = scan;
+  const KnownScene& known = scan.known;
   AxisModel result;
   Model& model = result.model;
   model.filtered = voting.filtered;
   for (const AxisVotes& votes : voting.of_kinds) result.kinds.emplace_back().votes = votes;
   StepClock clock(model.steps, at_step);
-  const auto for_each_kind = [&, &kinds = known.kinds](auto step) {
-    for (std::size_t i = 0; i < kinds.size(); ++i) step(result.kinds[i], kinds[i]);
+  const auto for_each_kind = [&](auto step) {
+    for (std::size_t i = 0; i < known.kinds.size(); ++i) step(result.kinds[i], known.kinds[i]);
   };
 
   for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
@@ -178,7 +178,7 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   });
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");
 
-  std::vector<std::int32_t> claimed(cloud.points.size(), null_label);
+  std::vector<std::int32_t> claimed(scan.cloud.points.size(), null_label);
   for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
     std::erase_if(steps.tubes, [&](const std::vector<std::size_t>& fragments) {
       if (is_false_speck(steps, fragments, kind, settings.link)) return true;
@@ -199,12 +199,12 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   });
   clock.end_step("fit", model.tubes.size(), "tubes");
 
-  model.labels = label_points(cloud, cropped, claimed, model.tubes, settings.label);
+  model.labels = label_points(scan.cloud, scan.cropped, claimed, model.tubes, settings.label);
   clock.end_step("label",
                  static_cast<std::size_t>(std::ranges::count_if(
                      model.labels, [](std::int32_t label) { return label > bin_label; })),
                  "points");
-  weigh(model, cloud, known);
+  weigh(model, scan.cloud, known);
   return result;
 }
 
