@@ -103,7 +103,7 @@ void print_tubes(const Model& model) {
             "length", "", "seen", "points", "residual", "joins", "weakest join");
   for (std::size_t i = 0; i < model.tubes.size(); ++i) {
     const TubeEvidence& evidence = model.evidence[i];
-    print_out("{:>4} {:>10.2f} {:>5.1f} mm {:>7.3f} m {:>9} {:>3.0f} % {:>7} {:>6.2f} mm {:>6} {:>12}\n",
+    print_out("{:>4} {:>10.3f} {:>5.1f} mm {:>7.3f} m {:>9} {:>3.0f} % {:>7} {:>6.2f} mm {:>6} {:>12}\n",
               model.tubes[i].id, evidence.confidence, 1000 * model.tubes[i].radius, evidence.length,
               text_of(evidence.length_fit), 100 * evidence.coverage(), evidence.points,
               1000 * evidence.residual, evidence.joins.size(), weakest_join(evidence));
