@@ -56,8 +56,8 @@ struct LinkWeights {
 /// Learned by `tanglebin learn` from recipes/learning.toml and recipes/learning-views.toml, rounded to four
 /// decimals.
 inline constexpr LinkWeights learned_weights = {
-    .chain_ends = {15.5080, -2.2616, 0.0000, -12.2594, 0.7883, 5.5832, -22.7500, -16.5711, 4.6678, -8.2262,
-                   -1.2200, -0.5847},
+    .chain_ends = {15.5128, -2.2628, 0.0000, -12.2568, 0.7862, 5.5858, -22.7516, -16.5702, 4.6762, -8.2364,
+                   -1.2243, -0.5854},
     .tree_ends = {11.5403, -1.3926, -0.2571, -9.9839, 0.9808, 4.7893, -14.9670, -4.7823, 0.1320, -1.5935,
                   -1.0706, -0.3104},
     .junction = {3.8304, -0.7074, -0.3061, -9.2422, 2.7392, -1.0139, -23.4626, 0.8058, -0.2611, 0.0000,
