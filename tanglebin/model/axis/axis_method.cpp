@@ -229,7 +229,7 @@ void add_times(std::vector<Step>& steps, const std::vector<Step>& others) {
 }
 
 // Where voxels begin is arbitrary. But where votes are noisy, it decides what hangs together. In voxels.
-constexpr std::array grid_shifts = {0.0, 0.5, 0.25, 0.75};
+constexpr std::array other_shifts = {0.5, 0.25, 0.75};
 
 }  // namespace
 
@@ -258,16 +258,15 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
 
   const RangeImage seen(points_seen(cloud, cropped, voting.filtered, ratio, seed), known.camera,
                         solid_parts(known.support));
-  AxisModel best;
-  for (const double shift : grid_shifts) {
-    AxisModel tried = model_votes(voting, seen, {cloud, cropped, known}, settings, shift, at_step);
-    if (shift == grid_shifts.front()) {
-      best = std::move(tried);
-    } else {
-      if (probably_right(tried.model) > probably_right(best.model)) std::swap(best, tried);
-      add_times(best.model.steps, tried.model.steps);
-    }
+  const auto model_with = [&](double shift) {
+    return model_votes(voting, seen, {cloud, cropped, known}, settings, shift, at_step);
+  };
+  AxisModel best = model_with(0);
+  for (const double shift : other_shifts) {
     if (!is_in_doubt(best.model, settings.fragment.sure_min)) break;
+    AxisModel tried = model_with(shift);
+    if (probably_right(tried.model) > probably_right(best.model)) std::swap(best, tried);
+    add_times(best.model.steps, tried.model.steps);
   }
   best.model.steps.insert(best.model.steps.begin(), steps.begin(), steps.end());
   return best;

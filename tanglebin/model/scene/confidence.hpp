@@ -18,8 +18,8 @@ using ConfidenceFeatures = std::array<double, confidence_features>;
 ConfidenceFeatures features_of(const TubeEvidence& evidence, const TubeKind& kind);
 
 /// Learned by `tanglebin learn --confidence` from recipes/confidence.toml, recipes/confidence-zivid.toml and
-/// bars (recipes/bars.toml --seed 16 --tubes 5,10,15 --cases 1-20), twice, since they choose the model too
-/// (axis_method.cpp); rounded to four decimals.
+/// bars (recipes/bars.toml --seed 16 --tubes 5,10,15 --cases 1-20), three times, since they choose the model
+/// too (axis_method.cpp); rounded to four decimals.
 inline constexpr ConfidenceFeatures learned_confidence = {2.4853,  0.6272,   -5.5845, -5.3480,
                                                           -1.1498, -17.4719, -3.6782, 0.7086};
 
