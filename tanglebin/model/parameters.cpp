@@ -164,6 +164,11 @@ void for_each_parameter(Settings& settings, Visit visit) {
         settings.axis.link.strangeness_max);
   visit({"axis.link.strangeness_weight", "log odds that a unit above it costs", by_steps(0, 16)},
         settings.axis.link.strangeness_weight);
+  visit({"axis.link.bent_weight", "the same where the whole chains of the scan are bent", by_steps(0, 32)},
+        settings.axis.link.bent_weight);
+  visit({"axis.link.bent_empty", "log odds that a radius of a bent chain costs that was seen to be empty",
+         by_steps(0, 16)},
+        settings.axis.link.bent_empty);
   for (const LinkKind kind : link_kinds) {
     for (std::size_t i = 0; i < link_features; ++i)
       visit({name_of_weight(kind, i), "log odds per unit of this feature of a link"},

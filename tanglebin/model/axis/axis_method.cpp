@@ -173,7 +173,7 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
     steps.length = kind.length();
     steps.links = find_links(steps.fragments, seen, kind, settings.link,
                              space_of_other_kinds(result.kinds, known, steps));
-    steps.chosen = choose_links(steps.fragments, steps.links, kind, settings.link).links;
+    steps.chosen = choose_links(steps.fragments, steps.links, kind, settings.link, seen).links;
     steps.tubes = linked_fragments(steps.fragments.size(), steps.links, steps.chosen);
   });
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");

@@ -34,6 +34,7 @@ struct Candidates {
   const std::vector<Link>& links;  ///< heaviest first
   const TubeKind& kind;
   const LinkSettings& settings;
+  const RangeImage& seen;
   double tube_length_max = length_max(kind.length(), settings);  ///< m
   int tube_ends_max = count_ends(kind.segments) + settings.ends_tolerance;
   std::vector<WeightedPair> pairs = {};  ///< the two ends of each link as vertices, and its weight
@@ -44,9 +45,11 @@ struct Candidates {
 };
 
 // The cost of what a part of a chain lacks, more than can be hidden beyond its ends. It may have been
-// misjudged that an end is free, so the cost has a limit.
+// misjudged that an end is free, so the cost has a limit. Beyond its ends is straight ahead; where tubes are
+// known to be bent, cost_of_bent() says more.
 double cost_of_length(const Candidates& candidates, const Part& chain) {
   constexpr double cost_max = 10;
+  if (candidates.shapes.are_bent()) return 0;
   const double unseen = unseen_length(chain.length, chain.hidden, candidates.kind, candidates.settings);
   return std::clamp(unseen / (candidates.settings.unseen_unit * candidates.kind.radius), 0.0, cost_max);
 }
@@ -69,6 +72,32 @@ double cost_of_looks(const Candidates& candidates, const CentrePath& chain) {
   return std::clamp(candidates.settings.strangeness_weight * strangeness, 0.0, cost_max);
 }
 
+// The cost of looking unlike the whole, bent chains of the scan, and of what was seen to be empty where the
+// rest of such a chain must be. Of all ways to lay a whole chain on this one, the one that costs least
+// counts.
+double cost_of_bent(const Candidates& candidates, const CentrePath& chain) {
+  constexpr double cost_max = 40;
+  constexpr double slack = 2;  // radii
+  constexpr double near = 1.6;
+  const LinkSettings& settings = candidates.settings;
+  const double radius = candidates.kind.radius;
+  if (path_length(chain) < slack * radius) return 0;
+  const auto is_empty = [&](const Eigen::Vector3d& place) {
+    return candidates.seen.shows_empty(place, radius);
+  };
+  double least = 2 * cost_max;
+  for (const TubeShapes::Laid& laid : candidates.shapes.laid_on(chain)) {
+    const double of_looks =
+        std::clamp(settings.bent_weight * (laid.strangeness - settings.strangeness_max), 0.0, cost_max);
+    if (of_looks >= least) break;
+    const CentrePath rest = candidates.shapes.rest_of(laid, near * radius);
+    const auto empty = static_cast<double>(std::ranges::count_if(rest, is_empty));
+    const double of_empty = settings.bent_empty * (empty * TubeShapes::step - slack);
+    least = std::min(least, of_looks + std::clamp(of_empty, 0.0, cost_max));
+  }
+  return least;
+}
+
 // The shape cost of a part of a tree: these fragments with the chosen links between them. If much of the tree
 // is missing, either that much is occluded or the part is no tree at all; the cheaper explanation counts.
 double cost_of_tree(const Candidates& candidates, const std::vector<std::size_t>& fragments,
@@ -89,8 +118,9 @@ bool has_shape_costs(const Candidates& candidates) {
 // The shape cost of a part: these fragments with the chosen links between them.
 double shape_cost(const Candidates& candidates, const std::vector<std::size_t>& fragments,
                   const std::vector<std::size_t>& chosen) {
-  return candidates.kind.branches() ? cost_of_tree(candidates, fragments, chosen)
-                                    : cost_of_looks(candidates, centre_path(candidates, fragments, chosen));
+  if (candidates.kind.branches()) return cost_of_tree(candidates, fragments, chosen);
+  const CentrePath chain = centre_path(candidates, fragments, chosen);
+  return candidates.shapes.are_bent() ? cost_of_bent(candidates, chain) : cost_of_looks(candidates, chain);
 }
 
 /// A set of links in which no two share an end and every tube is possible.
@@ -337,8 +367,8 @@ ChosenLinks likeliest(const Candidates& candidates) {
 }  // namespace
 
 ChosenLinks choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
-                         const TubeKind& kind, const LinkSettings& settings) {
-  Candidates candidates{fragments, links, kind, settings};
+                         const TubeKind& kind, const LinkSettings& settings, const RangeImage& seen) {
+  Candidates candidates{fragments, links, kind, settings, seen};
   add_graph(candidates);
   add_numbers(candidates);
   add_parts(candidates);

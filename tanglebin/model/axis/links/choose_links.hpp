@@ -6,6 +6,7 @@
 #include "tanglebin/model/axis/fragments/fragments.hpp"
 #include "tanglebin/model/axis/links/links.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"
+#include "tanglebin/model/scene/range_image.hpp"
 
 namespace tanglebin {
 
@@ -18,8 +19,10 @@ struct ChosenLinks {
 /// Chooses the likeliest combination of the links from find_links() in which every tube is open, no longer
 /// than known, and has no surplus ends. For chains this is the maximum-weight matching of the ends, for trees
 /// the heaviest links one after the other. Then links are exchanged while that increases their log odds.
+/// Where whole chains are alike, links are chosen again by what they look like; and if these are bent, also
+/// by what is seen where the rest of a chain must be.
 ChosenLinks choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
-                         const TubeKind& kind, const LinkSettings& settings);
+                         const TubeKind& kind, const LinkSettings& settings, const RangeImage& seen);
 
 /// The fragments of each tube that the chosen links form. Each list is ascending; the tubes are sorted by
 /// their first fragment.

@@ -82,7 +82,7 @@ Trial trial_of(double length, TubeKind kind, const std::vector<Fragment>& fragme
   constexpr double of_a_chain = 20;  // evidence for its length
   kind.segments[0].length = kind.length_min = length;
   links = possible_links(length, fragments, std::move(links), settings);
-  const ChosenLinks chosen = choose_links(fragments, links, kind, settings);
+  const ChosenLinks chosen = choose_links(fragments, links, kind, settings, seen);
   const std::vector<Chain> chains =
       as_long_as(length, chains_of(fragments, links, chosen.links, kind.radius, seen));
   return {.length = chains.empty() ? length : std::ranges::max(chains, {}, &Chain::length).length,

@@ -1,12 +1,24 @@
 #include "tanglebin/model/axis/links/tube_shapes.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
+#include <utility>
+
+#include "tanglebin/base/constants.hpp"
+#include "tanglebin/base/median.hpp"
 
 namespace tanglebin {
 namespace {
 
+using Eigen::AngleAxisd;
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Matrix3Xd;
+using Eigen::SelfAdjointEigenSolver;
+using Eigen::Translation3d;
 using Eigen::Vector3d;
 
 /// How far each node is from the first one along a path, m.
@@ -31,6 +43,20 @@ CentrePath at_even_steps(const CentrePath& path, double step) {
   return places;
 }
 
+// The pose in which the matched places of a tube are nearest to those of a part.
+Isometry3d pose_of(const CentrePath& tube, const std::vector<int>& matches, const CentrePath& part) {
+  const auto size = static_cast<Eigen::Index>(part.size());
+  Matrix3Xd from(3, size);
+  Matrix3Xd to(3, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    from.col(i) = tube[static_cast<std::size_t>(matches[place])];
+    to.col(i) = part[place];
+  }
+  constexpr bool with_scaling = false;
+  return Isometry3d(Eigen::umeyama(from, to, with_scaling));
+}
+
 }  // namespace
 
 double path_length(const CentrePath& path) {
@@ -39,6 +65,7 @@ double path_length(const CentrePath& path) {
 
 struct TubeShapes::Sample {
   double length;                // m, of the part
+  CentrePath places;            // m
   std::vector<double> ways;     // m
   std::vector<float> distance;  // m, of each pair, in the order of its loops
 
@@ -47,7 +74,6 @@ struct TubeShapes::Sample {
     constexpr std::size_t wanted = 9;
     const std::vector<double> along = ways_along(part);
     length = along.back();
-    CentrePath places;
     std::size_t node = 0;
     for (std::size_t i = 0; i < wanted; ++i) {
       const double way = length * static_cast<double>(i) / (wanted - 1);
@@ -61,11 +87,44 @@ struct TubeShapes::Sample {
         distance.push_back(static_cast<float>((places[i] - places[j]).norm()));
     }
   }
+
+  // The sum of the squared differences, m², between its distances and those of a tube's places.
+  float squares(const Distances& tube, const Matches& matches) const {
+    float sum = 0;
+    std::size_t pair = 0;
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j, ++pair) {
+        const float difference = distance[pair] - tube(matches[i], matches[j]);
+        sum += difference * difference;
+      }
+    }
+    return sum;
+  }
+
+  // Whether nothing shows how it is turned about its axis.
+  bool is_straight(double radius) const {
+    constexpr double spread_max = 0.35;  // radii, square to its axis
+    Matrix3Xd columns(3, static_cast<Eigen::Index>(places.size()));
+    for (std::size_t i = 0; i < places.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = places[i];
+    const Matrix3Xd centred = columns.colwise() - columns.rowwise().mean().eval();
+    const Matrix3d covariance = centred * centred.transpose() / static_cast<double>(places.size());
+    const Vector3d variances =
+        SelfAdjointEigenSolver<Matrix3d>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
+    return variances[1] < std::pow(spread_max * radius, 2);
+  }
+
+  // Of a sum of squares, m.
+  double root_mean(float sum) const {
+    return std::sqrt(static_cast<double>(sum) /
+                     static_cast<double>(std::max<std::size_t>(distance.size(), 1)));
+  }
 };
 
-TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius) : step_(radius / 2) {
+TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius)
+    : radius_(radius), step_(step * radius) {
   constexpr double alike = 1;    // radii of misfit
   constexpr double exact = 0.2;  // radii; no two tubes are known to be more alike
+  constexpr double bent = 6;     // spreads, from a straight tube
   constexpr std::size_t enough = 3;
   std::vector<Distances> all;
   all.reserve(tubes.size());
@@ -87,6 +146,9 @@ TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius) : st
   }
   std::ranges::sort(misfits);
   spread_ = std::max(misfits[misfits.size() / 2], exact * radius);
+  std::vector<double> bends;
+  for (const Distances& tube : tubes_) bends.push_back(misfit_with_straight(tube));
+  are_bent_ = median(std::move(bends)) > bent * spread_;
 }
 
 double TubeShapes::strangeness(const CentrePath& part) const {
@@ -98,44 +160,149 @@ double TubeShapes::strangeness(const CentrePath& part) const {
 }
 
 TubeShapes::Distances TubeShapes::distances_along(const CentrePath& tube) const {
-  const CentrePath places = at_even_steps(tube, step_);
-  Distances distances{.places = places.size()};
-  for (const Vector3d& place : places) {
-    for (const Vector3d& other : places)
+  Distances distances{.places = at_even_steps(tube, step_)};
+  for (const Vector3d& place : distances.places) {
+    for (const Vector3d& other : distances.places)
       distances.between.push_back(static_cast<float>((place - other).norm()));
   }
   return distances;
 }
 
-// The root mean square difference, m, between the distances of the part's places and those of a tube's, where
-// the part fits best: either way round, from one end of the tube to the other. A part may be a little longer
-// than what it is part of.
-double TubeShapes::misfit(const Sample& part, const Distances& tube) const {
+// The matches of a part and a tube: either way round, from one end of the tube to the other. A part may be a
+// little longer than what it is part of.
+template <typename Visit>
+void TubeShapes::for_each_match(const Sample& part, const Distances& tube, const Visit& visit) const {
   constexpr int slack = 4;   // steps, beyond the tube's ends
   constexpr int shifts = 2;  // steps
-  const int last = static_cast<int>(tube.places) - 1;
+  const int last = tube.last();
   const int room = std::max(last - static_cast<int>(part.length / step_), -2 * slack);
-  std::vector<std::size_t> at(part.ways.size());
-  float least = std::numeric_limits<float>::infinity();
+  Matches matches(part.ways.size());
   for (const bool is_reversed : {false, true}) {
     for (int first = -slack; first <= room + slack; first += shifts) {
-      for (std::size_t i = 0; i < at.size(); ++i) {
+      for (std::size_t i = 0; i < matches.size(); ++i) {
         const int place = first + static_cast<int>(std::lround(part.ways[i] / step_));
-        at[i] = static_cast<std::size_t>(std::clamp(is_reversed ? last - place : place, 0, last));
+        matches[i] = std::clamp(is_reversed ? last - place : place, 0, last);
       }
-      float sum = 0;
-      std::size_t pair = 0;
-      for (std::size_t i = 0; i < at.size(); ++i) {
-        for (std::size_t j = 0; j < i; ++j, ++pair) {
-          const float difference = part.distance[pair] - tube.between[at[i] * tube.places + at[j]];
-          sum += difference * difference;
-        }
-      }
-      least = std::min(least, sum);
+      visit(matches);
     }
   }
-  return std::sqrt(static_cast<double>(least) /
-                   static_cast<double>(std::max<std::size_t>(part.distance.size(), 1)));
+}
+
+// The root mean square difference, m, between the distances of the part's places and those of a tube's, where
+// the part fits best.
+double TubeShapes::misfit(const Sample& part, const Distances& tube) const {
+  float least = std::numeric_limits<float>::infinity();
+  for_each_match(part, tube,
+                 [&](const Matches& matches) { least = std::min(least, part.squares(tube, matches)); });
+  return part.root_mean(least);
+}
+
+// The same for a straight part as long as the tube.
+double TubeShapes::misfit_with_straight(const Distances& tube) const {
+  double sum = 0;
+  for (int i = 0; i <= tube.last(); ++i) {
+    for (int j = 0; j < i; ++j) {
+      const double difference = (i - j) * step_ - static_cast<double>(tube(i, j));
+      sum += difference * difference;
+    }
+  }
+  const double pairs = tube.last() * (tube.last() + 1) / 2.0;
+  return std::sqrt(sum / std::max(pairs, 1.0));
+}
+
+/// Where a part is on a known tube.
+struct TubeShapes::Match {
+  float squares;  // m², Sample::squares()
+  std::size_t tube;
+  Matches places;
+};
+
+// For each place along a tube and either way round, the known tube that fits best there; the best of these
+// places. A straight part fits at many, but the rest of the tube is elsewhere each time.
+std::vector<TubeShapes::Match> TubeShapes::best_matches(const Sample& part) const {
+  constexpr std::size_t best = 16;
+  std::vector<Match> matches;
+  for (std::size_t tube = 0; tube < tubes_.size(); ++tube) {
+    std::size_t place = 0;
+    for_each_match(part, tubes_[tube], [&](const Matches& places) {
+      Match match{part.squares(tubes_[tube], places), tube, places};
+      if (place == matches.size()) {
+        matches.push_back(std::move(match));
+      } else if (match.squares < matches[place].squares) {
+        matches[place] = std::move(match);
+      }
+      ++place;
+    });
+  }
+  const auto end = matches.begin() + static_cast<std::ptrdiff_t>(std::min(best, matches.size()));
+  std::ranges::partial_sort(matches, end, {}, &Match::squares);
+  matches.erase(end, matches.end());
+  return matches;
+}
+
+// Moves the places of a part along the tube to where they are nearest to it, since what a link bridges may be
+// longer than straight ahead. A few rounds of iterative closest points.
+void TubeShapes::slide(const Sample& part, Match& match) const {
+  constexpr int rounds = 3;
+  constexpr int reach = 8;  // steps
+  const Distances& tube = tubes_[match.tube];
+  Match slid = match;
+  for (int round = 0; round < rounds; ++round) {
+    const Isometry3d to_tube = pose_of(tube.places, slid.places, part.places).inverse(Eigen::Isometry);
+    for (std::size_t i = 0; i < slid.places.size(); ++i) {
+      const Vector3d place = to_tube * part.places[i];
+      const auto distance = [&](int other) {
+        return (tube.places[static_cast<std::size_t>(other)] - place).squaredNorm();
+      };
+      const int last = std::min(slid.places[i] + reach, tube.last());
+      const auto near = std::views::iota(std::max(slid.places[i] - reach, 0), last + 1);
+      slid.places[i] = *std::ranges::min_element(near, {}, distance);
+    }
+  }
+  slid.squares = part.squares(tube, slid.places);
+  if (slid.squares < match.squares) match = std::move(slid);
+}
+
+// The poses in which a tube matches a part. About a straight part, it can have any angle.
+std::vector<Isometry3d> TubeShapes::poses_of(const Sample& part, const Match& match) const {
+  constexpr int angles = 16;
+  const Isometry3d pose = pose_of(tubes_[match.tube].places, match.places, part.places);
+  if (!part.is_straight(radius_)) return {pose};
+  const Vector3d middle = part.places[part.places.size() / 2];
+  const Vector3d axis = (part.places.back() - part.places.front()).normalized();
+  std::vector<Isometry3d> poses;
+  for (int i = 0; i < angles; ++i) {
+    const AngleAxisd turn(i * 360 * degree / angles, axis);
+    poses.push_back(Translation3d(middle) * turn * Translation3d(-middle) * pose);
+  }
+  return poses;
+}
+
+std::vector<TubeShapes::Laid> TubeShapes::laid_on(const CentrePath& part) const {
+  const Sample sample(part);
+  std::vector<Laid> laid;
+  for (Match& match : best_matches(sample)) {
+    slide(sample, match);
+    const auto [first, last] = std::ranges::minmax(match.places);
+    for (const Isometry3d& pose : poses_of(sample, match)) {
+      laid.push_back({sample.root_mean(match.squares) / spread_, match.tube, static_cast<std::size_t>(first),
+                      static_cast<std::size_t>(last), pose});
+    }
+  }
+  std::ranges::stable_sort(laid, {}, &Laid::strangeness);
+  return laid;
+}
+
+CentrePath TubeShapes::rest_of(const Laid& laid, double farther_than) const {
+  constexpr std::size_t end = 2;  // places; beside a tube's end, what is behind it is seen
+  const CentrePath& places = tubes_[laid.tube].places;
+  CentrePath rest;
+  for (std::size_t i = end; i + end < places.size(); ++i) {
+    const std::size_t before = i < laid.first ? laid.first - i : 0;
+    const std::size_t after = i > laid.last ? i - laid.last : 0;
+    if (static_cast<double>(before + after) * step_ > farther_than) rest.push_back(laid.pose * places[i]);
+  }
+  return rest;
 }
 
 }  // namespace tanglebin

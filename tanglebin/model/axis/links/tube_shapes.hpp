@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <vector>
 
@@ -17,6 +18,8 @@ double path_length(const CentrePath& path);
 /// places along it; it does not change if the tube is moved, turned or mirrored.
 class TubeShapes {
 public:
+  static constexpr double step = 0.5;  ///< radii, between places along a tube
+
   /// Nothing is known: no part is strange.
   TubeShapes() = default;
 
@@ -26,16 +29,45 @@ public:
 
   bool are_known() const { return !tubes_.empty(); }
 
+  /// Whether a straight tube would be much unlike them. Then their shape tells where on a tube a part is.
+  bool are_bent() const { return are_bent_; }
+
   /// How unlike a part is to the most similar part of all known tubes, as a multiple of the median of how
   /// unlike each known tube is to the most similar other one. 0 if nothing is known.
   double strangeness(const CentrePath& part) const;
 
-private:
-  /// The distances, m, between places at even steps along a tube.
-  struct Distances {
-    std::size_t places = 0;
-    std::vector<float> between{};  // places x places
+  /// A known tube, laid on a part.
+  struct Laid {
+    double strangeness;      ///< how unlike the part is to what it lies on
+    std::size_t tube;        ///< index of the known tube
+    std::size_t first;       ///< places on it, at even steps, that the part covers
+    std::size_t last;        ///< the same; included
+    Eigen::Isometry3d pose;  ///< of the known tube, in the part's frame
   };
+
+  /// The ways to lay known tubes on a part that fit best, the best first. What a link bridges may be longer
+  /// than straight ahead. On a straight part, a tube can be turned about it: these are ways of their own.
+  std::vector<Laid> laid_on(const CentrePath& part) const;
+
+  /// The places of a laid tube, m, that are farther than this (m, along it) from what the part covers.
+  CentrePath rest_of(const Laid& laid, double farther_than) const;
+
+private:
+  /// Places at even steps along a tube, m, and the distances between them.
+  struct Distances {
+    CentrePath places{};
+    std::vector<float> between{};  // places x places
+
+    float operator()(int place, int other) const {
+      return between[static_cast<std::size_t>(place) * places.size() + static_cast<std::size_t>(other)];
+    }
+    int last() const { return static_cast<int>(places.size()) - 1; }
+  };
+
+  /// For each place of a sample, the place on a tube where it is.
+  using Matches = std::vector<int>;
+
+  struct Match;
 
   /// Places on a part: how far each is from the first one along the part, and from all others through space,
   /// m.
@@ -43,10 +75,18 @@ private:
 
   Distances distances_along(const CentrePath& tube) const;
   double misfit(const Sample& part, const Distances& tube) const;
+  double misfit_with_straight(const Distances& tube) const;
+  template <typename Visit>
+  void for_each_match(const Sample& part, const Distances& tube, const Visit& visit) const;
+  std::vector<Match> best_matches(const Sample& part) const;
+  void slide(const Sample& part, Match& match) const;
+  std::vector<Eigen::Isometry3d> poses_of(const Sample& part, const Match& match) const;
 
-  double step_ = 0;    // m, between the places along a tube
+  double radius_ = 0;  // m
+  double step_ = 0;    // m, the same
   double spread_ = 0;  // m, median misfit of the known tubes with each other
   std::vector<Distances> tubes_;
+  bool are_bent_ = false;
 };
 
 }  // namespace tanglebin

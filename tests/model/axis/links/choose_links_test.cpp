@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "tests/model/axis/fragments/straight_fragment.hpp"
 
@@ -26,12 +27,17 @@ TubeKind tree_of(const SegmentTree& segments) {
   return {.segments = segments};
 }
 
+std::vector<Link> chosen_of(const std::vector<Fragment>& fragments, const TubeKind& kind,
+                            const RangeImage& seen) {
+  const std::vector<Link> links = find_links(fragments, seen, kind, {});
+  std::vector<Link> chosen;
+  for (const std::size_t i : choose_links(fragments, links, kind, {}, seen).links) chosen.push_back(links[i]);
+  return chosen;
+}
+
 // Of those that there are where nothing was seen, so that nothing was seen to be empty.
 std::vector<Link> chosen_of(const std::vector<Fragment>& fragments, const TubeKind& kind) {
-  const std::vector<Link> links = find_links(fragments, RangeImage({}, camera_preset("paper")), kind, {});
-  std::vector<Link> chosen;
-  for (const std::size_t i : choose_links(fragments, links, kind, {}).links) chosen.push_back(links[i]);
-  return chosen;
+  return chosen_of(fragments, kind, RangeImage({}, camera_preset("paper")));
 }
 
 // Two of the three are a tube, but not all of them.
@@ -111,6 +117,33 @@ TEST(ChooseLinks, MakeNoTubeThatLooksLikeNoOther) {
   EXPECT_THAT(chosen_of(pieces, kind), SizeIs(1));
   for (const double y : {0.0, 0.1, 0.2}) pieces.push_back(bent_fragment({0.3, y, 0.05}));
   EXPECT_THAT(chosen_of(pieces, kind), IsEmpty());
+}
+
+// A square of the floor, 8 cm wide: above it nothing is in the way.
+RangeImage floor_seen_at(const Vector3d& middle) {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = -80; i <= 80; ++i) {
+    for (int j = -80; j <= 80; ++j) points.emplace_back(middle.x() + 0.0005 * i, middle.y() + 0.0005 * j, 0);
+  }
+  return {points, camera_preset("paper")};
+}
+
+// An arm, and two ends that may be of the other one of a right angle. The nearer one would go on where the
+// floor is seen, the other one upwards.
+TEST(ChooseLinks, MakeNoBentTubeOfWhichTheRestWouldBeSeen) {
+  std::vector<Fragment> pieces = {straight_fragment({-0.1, 0, 0.05}, {-0.02, 0, 0.05}),
+                                  straight_fragment({0, 0.02, 0.05}, {0, 0.03, 0.05}),
+                                  straight_fragment({0, 0, 0.075}, {0, 0, 0.085})};
+  for (const double y : {-0.4, -0.3, -0.2}) pieces.push_back(bent_fragment({0.3, y, 0.05}));
+  TubeKind kind = chain_of(0.24);
+  kind.radius = 0.006;
+  kind.length_min = 0.24;
+  const auto other_arm = [&](const RangeImage& seen) {
+    const std::vector<Link> chosen = chosen_of(pieces, kind, seen);
+    return chosen.size() == 1 && chosen.front().fragment == 0 ? chosen.front().to.fragment : 0;
+  };
+  EXPECT_EQ(other_arm(RangeImage({}, camera_preset("paper"))), 1U);
+  EXPECT_EQ(other_arm(floor_seen_at({0, 0.08, 0})), 2U);
 }
 
 TEST(ChooseLinks, CloseNoTube) {

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tanglebin/base/constants.hpp"
 
@@ -120,6 +121,70 @@ TEST(TubeShapes, ATubeThatIsLikeNoOtherDoesNotCount) {
                           bar_radius);
   ASSERT_TRUE(shapes.are_known());
   EXPECT_THAT(shapes.strangeness(bent_bar(0, 0)), Ge(2.5));
+}
+
+TEST(TubeShapes, BarsAreBentAndHosesAreNot) {
+  EXPECT_TRUE(bent_bars().are_bent());
+  const CentrePath hose = bent_bar(8 * degree, 8 * degree);
+  const TubeShapes hoses({hose, bent_bar(10 * degree, 8 * degree), bent_bar(8 * degree, 4 * degree)},
+                         bar_radius);
+  ASSERT_TRUE(hoses.are_known());
+  EXPECT_FALSE(hoses.are_bent());
+  EXPECT_FALSE(TubeShapes().are_bent());
+}
+
+double distance_from(const CentrePath& path, const Vector3d& place) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector3d& node : path) least = std::min(least, (node - place).norm());
+  return least;
+}
+
+double farthest_from(const CentrePath& path, const CentrePath& places) {
+  double most = 0;
+  for (const Vector3d& place : places) most = std::max(most, distance_from(path, place));
+  return most;
+}
+
+TubeShapes equal_bars() {
+  const CentrePath bar = bent_bar(100 * degree, 100 * degree);
+  return {{bar, bar, bar}, bar_radius};
+}
+
+// One end and the bend after it say where the other end is.
+TEST(TubeShapes, ABentPartShowsWhereTheRestIs) {
+  const TubeShapes shapes = equal_bars();
+  const CentrePath bar = moved(elsewhere, bent_bar(100 * degree, 100 * degree));
+  const TubeShapes::Laid laid = shapes.laid_on(part(bar, 0, 30)).front();
+  EXPECT_THAT(laid.strangeness, Le(1.5));
+  const CentrePath rest = shapes.rest_of(laid, 0);
+  EXPECT_THAT(TubeShapes::step * bar_radius * static_cast<double>(rest.size()), DoubleNear(0.1, 0.03));
+  EXPECT_THAT(farthest_from(bar, rest), Le(bar_radius));
+  EXPECT_THAT(shapes.rest_of(laid, 0.02).size(), testing::Lt(rest.size()));
+  EXPECT_THAT(shapes.rest_of(shapes.laid_on(bar).front(), 0), testing::IsEmpty());
+}
+
+// A straight part may be any of the straight pieces, and the rest may be all around it: one of the ways is
+// true.
+TEST(TubeShapes, OnAStraightPartATubeIsTurned) {
+  const TubeShapes shapes = equal_bars();
+  const CentrePath bar = moved(elsewhere, bent_bar(100 * degree, 100 * degree));
+  const std::vector<TubeShapes::Laid> laid = shapes.laid_on(part(bar, 0, 12));
+  EXPECT_THAT(laid.size(), Ge(16U));
+  double least = std::numeric_limits<double>::infinity();
+  for (const TubeShapes::Laid& way : laid)
+    least = std::min(least, farthest_from(bar, shapes.rest_of(way, 0)));
+  EXPECT_THAT(least, Le(5 * bar_radius));
+}
+
+// The way over a gap is measured straight ahead, which is too short where a bend is hidden.
+TEST(TubeShapes, AHiddenBendIsNotStrange) {
+  const TubeShapes shapes = equal_bars();
+  const CentrePath bar = bent_bar(100 * degree, 100 * degree);
+  CentrePath gaped = part(bar, 0, 12);
+  const CentrePath behind = part(bar, 26, static_cast<std::ptrdiff_t>(bar.size()));
+  gaped.insert(gaped.end(), behind.begin(), behind.end());
+  EXPECT_THAT(shapes.strangeness(gaped), Ge(2.5));
+  EXPECT_THAT(shapes.laid_on(gaped).front().strangeness, Le(1.5));
 }
 
 TEST(PathLength, IsTheSumOfTheEdges) {
