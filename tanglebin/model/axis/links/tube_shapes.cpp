@@ -120,12 +120,11 @@ struct TubeShapes::Sample {
   }
 };
 
-TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius)
+TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius, std::size_t enough)
     : radius_(radius), step_(step * radius) {
   constexpr double alike = 1;    // radii of misfit
   constexpr double exact = 0.2;  // radii; no two tubes are known to be more alike
   constexpr double bent = 6;     // spreads, from a straight tube
-  constexpr std::size_t enough = 3;
   std::vector<Distances> all;
   all.reserve(tubes.size());
   for (const CentrePath& tube : tubes) all.push_back(distances_along(tube));

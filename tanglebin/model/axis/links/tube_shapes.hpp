@@ -24,8 +24,8 @@ public:
   TubeShapes() = default;
 
   /// The shapes of whole tubes of this radius (m) that have another one like them. If these are fewer than
-  /// three, or fewer than half of them, the tubes have no shape in common, and nothing is known.
-  TubeShapes(const std::vector<CentrePath>& tubes, double radius);
+  /// enough, or fewer than half of them, the tubes have no shape in common, and nothing is known.
+  TubeShapes(const std::vector<CentrePath>& tubes, double radius, std::size_t enough);
 
   bool are_known() const { return !tubes_.empty(); }
 

@@ -55,7 +55,8 @@ TubeShapes bent_bars() {
   return {{bent_bar(90 * degree, 110 * degree), bent_bar(100 * degree, 100 * degree),
            moved(elsewhere, bent_bar(110 * degree, 90 * degree)), bent_bar(95 * degree, 95 * degree),
            bent_bar(105 * degree, 108 * degree)},
-          bar_radius};
+          bar_radius,
+          3};
 }
 
 CentrePath part(const CentrePath& path, std::ptrdiff_t first, std::ptrdiff_t last) {
@@ -104,13 +105,13 @@ TEST(TubeShapes, WhatNoTubeHasIsStrange) {
 TEST(TubeShapes, TubesThatAreNotAlikeHaveNoShape) {
   EXPECT_FALSE(TubeShapes({bent_bar(0, 0), bent_bar(60 * degree, 0), bent_bar(100 * degree, 100 * degree),
                            bent_bar(100 * degree, -100 * degree)},
-                          bar_radius)
+                          bar_radius, 3)
                    .are_known());
 }
 
 TEST(TubeShapes, TwoTubesAreTooFew) {
   EXPECT_FALSE(
-      TubeShapes({bent_bar(100 * degree, 100 * degree), bent_bar(100 * degree, 100 * degree)}, bar_radius)
+      TubeShapes({bent_bar(100 * degree, 100 * degree), bent_bar(100 * degree, 100 * degree)}, bar_radius, 3)
           .are_known());
 }
 
@@ -118,7 +119,7 @@ TEST(TubeShapes, TwoTubesAreTooFew) {
 TEST(TubeShapes, ATubeThatIsLikeNoOtherDoesNotCount) {
   const TubeShapes shapes({bent_bar(90 * degree, 110 * degree), bent_bar(100 * degree, 100 * degree),
                            bent_bar(105 * degree, 95 * degree), bent_bar(0, 0)},
-                          bar_radius);
+                          bar_radius, 3);
   ASSERT_TRUE(shapes.are_known());
   EXPECT_THAT(shapes.strangeness(bent_bar(0, 0)), Ge(2.5));
 }
@@ -127,7 +128,7 @@ TEST(TubeShapes, BarsAreBentAndHosesAreNot) {
   EXPECT_TRUE(bent_bars().are_bent());
   const CentrePath hose = bent_bar(8 * degree, 8 * degree);
   const TubeShapes hoses({hose, bent_bar(10 * degree, 8 * degree), bent_bar(8 * degree, 4 * degree)},
-                         bar_radius);
+                         bar_radius, 3);
   ASSERT_TRUE(hoses.are_known());
   EXPECT_FALSE(hoses.are_bent());
   EXPECT_FALSE(TubeShapes().are_bent());
@@ -147,7 +148,7 @@ double farthest_from(const CentrePath& path, const CentrePath& places) {
 
 TubeShapes equal_bars() {
   const CentrePath bar = bent_bar(100 * degree, 100 * degree);
-  return {{bar, bar, bar}, bar_radius};
+  return {{bar, bar, bar}, bar_radius, 3};
 }
 
 // One end and the bend after it say where the other end is.
