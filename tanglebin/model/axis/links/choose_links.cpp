@@ -87,15 +87,16 @@ double cost_of_bent(const Candidates& candidates, const CentrePath& chain) {
     return candidates.seen.shows_empty(place, radius);
   };
   double least = 2 * cost_max;
-  for (const TubeShapes::Laid& laid : candidates.shapes.laid_on(chain)) {
+  candidates.shapes.lay_on(chain, [&](const TubeShapes::Laid& laid) {
     const double of_looks =
         std::clamp(settings.bent_weight * (laid.strangeness - settings.strangeness_max), 0.0, cost_max);
-    if (of_looks >= least) break;
+    if (of_looks >= least) return true;
     const CentrePath rest = candidates.shapes.rest_of(laid, near * radius);
     const auto empty = static_cast<double>(std::ranges::count_if(rest, is_empty));
     const double of_empty = settings.bent_empty * (empty * TubeShapes::step - slack);
     least = std::min(least, of_looks + std::clamp(of_empty, 0.0, cost_max));
-  }
+    return least > 0;
+  });
   return least;
 }
 

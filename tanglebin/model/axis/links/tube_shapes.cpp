@@ -277,19 +277,21 @@ std::vector<Isometry3d> TubeShapes::poses_of(const Sample& part, const Match& ma
   return poses;
 }
 
-std::vector<TubeShapes::Laid> TubeShapes::laid_on(const CentrePath& part) const {
+void TubeShapes::lay_on(const CentrePath& part, const std::function<bool(const Laid&)>& visit) const {
   const Sample sample(part);
-  std::vector<Laid> laid;
   for (Match& match : best_matches(sample)) {
     slide(sample, match);
     const auto [first, last] = std::ranges::minmax(match.places);
+    Laid laid{.strangeness = sample.root_mean(match.squares) / spread_,
+              .tube = match.tube,
+              .first = static_cast<std::size_t>(first),
+              .last = static_cast<std::size_t>(last),
+              .pose = {}};
     for (const Isometry3d& pose : poses_of(sample, match)) {
-      laid.push_back({sample.root_mean(match.squares) / spread_, match.tube, static_cast<std::size_t>(first),
-                      static_cast<std::size_t>(last), pose});
+      laid.pose = pose;
+      if (!visit(laid)) return;
     }
   }
-  std::ranges::stable_sort(laid, {}, &Laid::strangeness);
-  return laid;
 }
 
 CentrePath TubeShapes::rest_of(const Laid& laid, double farther_than) const {

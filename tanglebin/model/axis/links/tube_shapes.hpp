@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace tanglebin {
@@ -45,9 +46,10 @@ public:
     Eigen::Isometry3d pose;  ///< of the known tube, in the part's frame
   };
 
-  /// The ways to lay known tubes on a part that fit best, the best first. What a link bridges may be longer
-  /// than straight ahead. On a straight part, a tube can be turned about it: these are ways of their own.
-  std::vector<Laid> laid_on(const CentrePath& part) const;
+  /// Lays known tubes on a part in the ways that fit best, and visits each way, until the visit returns
+  /// false. What a link bridges may be longer than straight ahead. On a straight part, a tube can be turned
+  /// about it: these are ways of their own.
+  void lay_on(const CentrePath& part, const std::function<bool(const Laid&)>& visit) const;
 
   /// The places of a laid tube, m, that are farther than this (m, along it) from what the part covers.
   CentrePath rest_of(const Laid& laid, double farther_than) const;
