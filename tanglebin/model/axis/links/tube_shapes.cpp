@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <utility>
 
 #include "tanglebin/base/constants.hpp"
@@ -250,12 +249,11 @@ void TubeShapes::slide(const Sample& part, Match& match) const {
     const Isometry3d to_tube = pose_of(tube.places, slid.places, part.places).inverse(Eigen::Isometry);
     for (std::size_t i = 0; i < slid.places.size(); ++i) {
       const Vector3d place = to_tube * part.places[i];
-      const auto distance = [&](int other) {
-        return (tube.places[static_cast<std::size_t>(other)] - place).squaredNorm();
-      };
-      const int last = std::min(slid.places[i] + reach, tube.last());
-      const auto near = std::views::iota(std::max(slid.places[i] - reach, 0), last + 1);
-      slid.places[i] = *std::ranges::min_element(near, {}, distance);
+      const auto first = tube.places.begin() + std::max(slid.places[i] - reach, 0);
+      const auto last = tube.places.begin() + std::min(slid.places[i] + reach, tube.last());
+      const auto nearest = std::ranges::min_element(
+          first, last + 1, {}, [&](const Vector3d& other) { return (other - place).squaredNorm(); });
+      slid.places[i] = static_cast<int>(nearest - tube.places.begin());
     }
   }
   slid.squares = part.squares(tube, slid.places);
