@@ -363,9 +363,9 @@ TubeShapes shapes_of_whole_chains(const Candidates& candidates, const std::vecto
     if (weakest_link(candidates, members, chosen) > sure) sure_ones.push_back(path);
     whole.push_back(std::move(path));
   }
-  const TubeShapes of_all(whole, kind.radius, enough);
+  TubeShapes of_all(whole, kind.radius, enough);
   if (of_all.are_known()) return of_all;
-  const TubeShapes of_sure_ones(sure_ones, kind.radius, enough_sure_ones);
+  TubeShapes of_sure_ones(sure_ones, kind.radius, enough_sure_ones);
   return of_sure_ones.are_bent() ? of_sure_ones : TubeShapes();
 }
 
