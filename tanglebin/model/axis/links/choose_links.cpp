@@ -46,11 +46,11 @@ struct Candidates {
 };
 
 // The cost of what a part of a chain lacks, more than can be hidden beyond its ends. It may have been
-// misjudged that an end is free, so the cost has a limit. Beyond its ends is straight ahead; where tubes are
-// known to be bent, cost_of_bent() says more.
+// misjudged that an end is free, so the cost has a limit. Hidden is what lies straight ahead; what trees and
+// bent chains lack is a part of the cost of their shape.
 double cost_of_length(const Candidates& candidates, const Part& chain) {
   constexpr double cost_max = 10;
-  if (candidates.shapes.are_bent()) return 0;
+  if (candidates.kind.branches() || candidates.shapes.are_bent()) return 0;
   const double unseen = unseen_length(chain.length, chain.hidden, candidates.kind, candidates.settings);
   return std::clamp(unseen / (candidates.settings.unseen_unit * candidates.kind.radius), 0.0, cost_max);
 }
@@ -206,7 +206,7 @@ private:
   }
 
   double cost_of(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
-    const double of_length = candidates_->kind.branches() ? 0 : cost_of_length(*candidates_, tube);
+    const double of_length = cost_of_length(*candidates_, tube);
     return has_shape_costs(*candidates_) ? of_length + cost_of_shape(tube, first, second, link) : of_length;
   }
 
@@ -323,12 +323,10 @@ void add_parts(Candidates& candidates) {
     double hidden = 0;
     for (const FragmentEnd& end : fragment.ends) hidden += end.hidden;
     Part part{.length = fragment.length, .ends = ends, .links = 0, .hidden = hidden, .cost = 0};
-    if (!candidates.kind.branches()) {
-      part.cost = cost_of_length(candidates, part);
-      if (has_shape_costs(candidates)) part.cost += shape_cost(candidates, {i}, {});
-    } else if (ends <= candidates.tube_ends_max) {  // with surplus ends it stays a tube by itself, at no cost
-      part.cost = shape_cost(candidates, {i}, {});
-    }
+    part.cost = cost_of_length(candidates, part);
+    // With surplus ends a piece of a tree stays a tube by itself, at no cost.
+    if (has_shape_costs(candidates) && ends <= candidates.tube_ends_max)
+      part.cost += shape_cost(candidates, {i}, {});
     candidates.alone.push_back(part);
   }
 }
@@ -344,9 +342,9 @@ double weakest_link(const Candidates& candidates, const std::vector<std::size_t>
   return weakest;
 }
 
-// What the whole chains among the chosen look like. Without a known length, none is known to be whole. If
-// most are like no other, some are wrong: then only those without a doubtful link count, if they are bent,
-// since bent ones are not alike by chance.
+// What the whole chains among the chosen look like. Without a known length, none is known to be whole. If too
+// few are alike, some may be wrong: then only those without a doubtful link count, if they are bent, since
+// bent ones are not alike by chance.
 TubeShapes shapes_of_whole_chains(const Candidates& candidates, const std::vector<std::size_t>& chosen) {
   constexpr double nearly = 0.05;  // of the length
   constexpr double sure = 15;      // log odds
