@@ -112,6 +112,20 @@ struct TubeShapes::Sample {
     return variances[1] < std::pow(spread_max * radius, 2);
   }
 
+  // The turns that a tube laid on it may have: about a straight part, by any angle.
+  std::vector<Isometry3d> turns(double radius) const {
+    constexpr int angles = 16;
+    if (!is_straight(radius)) return {Isometry3d::Identity()};
+    const Vector3d middle = places[places.size() / 2];
+    const Vector3d axis = (places.back() - places.front()).normalized();
+    std::vector<Isometry3d> turns;
+    for (int i = 0; i < angles; ++i) {
+      const AngleAxisd turn(i * 360 * degree / angles, axis);
+      turns.emplace_back(Translation3d(middle) * turn * Translation3d(-middle));
+    }
+    return turns;
+  }
+
   // Of a sum of squares, m.
   double root_mean(float sum) const {
     return std::sqrt(static_cast<double>(sum) /
@@ -120,7 +134,7 @@ struct TubeShapes::Sample {
 };
 
 TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius, std::size_t enough)
-    : radius_(radius), step_(step * radius) {
+    : radius_(radius) {
   constexpr double alike = 1;    // radii of misfit
   constexpr double exact = 0.2;  // radii; no two tubes are known to be more alike
   constexpr double bent = 6;     // spreads, from a straight tube
@@ -142,8 +156,7 @@ TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius, std:
     tubes_.clear();
     return;
   }
-  std::ranges::sort(misfits);
-  spread_ = std::max(misfits[misfits.size() / 2], exact * radius);
+  spread_ = std::max(median(std::move(misfits)), exact * radius);
   std::vector<double> bends;
   for (const Distances& tube : tubes_) bends.push_back(misfit_with_straight(tube));
   are_bent_ = median(std::move(bends)) > bent * spread_;
@@ -158,7 +171,7 @@ double TubeShapes::strangeness(const CentrePath& part) const {
 }
 
 TubeShapes::Distances TubeShapes::distances_along(const CentrePath& tube) const {
-  Distances distances{.places = at_even_steps(tube, step_)};
+  Distances distances{.places = at_even_steps(tube, step_length())};
   for (const Vector3d& place : distances.places) {
     for (const Vector3d& other : distances.places)
       distances.between.push_back(static_cast<float>((place - other).norm()));
@@ -173,12 +186,12 @@ void TubeShapes::for_each_match(const Sample& part, const Distances& tube, const
   constexpr int slack = 4;   // steps, beyond the tube's ends
   constexpr int shifts = 2;  // steps
   const int last = tube.last();
-  const int room = std::max(last - static_cast<int>(part.length / step_), -2 * slack);
+  const int room = std::max(last - static_cast<int>(part.length / step_length()), -2 * slack);
   Matches matches(part.ways.size());
   for (const bool is_reversed : {false, true}) {
     for (int first = -slack; first <= room + slack; first += shifts) {
       for (std::size_t i = 0; i < matches.size(); ++i) {
-        const int place = first + static_cast<int>(std::lround(part.ways[i] / step_));
+        const int place = first + static_cast<int>(std::lround(part.ways[i] / step_length()));
         matches[i] = std::clamp(is_reversed ? last - place : place, 0, last);
       }
       visit(matches);
@@ -200,7 +213,7 @@ double TubeShapes::misfit_with_straight(const Distances& tube) const {
   double sum = 0;
   for (int i = 0; i <= tube.last(); ++i) {
     for (int j = 0; j < i; ++j) {
-      const double difference = (i - j) * step_ - static_cast<double>(tube(i, j));
+      const double difference = (i - j) * step_length() - static_cast<double>(tube(i, j));
       sum += difference * difference;
     }
   }
@@ -223,11 +236,11 @@ std::vector<TubeShapes::Match> TubeShapes::best_matches(const Sample& part) cons
   for (std::size_t tube = 0; tube < tubes_.size(); ++tube) {
     std::size_t place = 0;
     for_each_match(part, tubes_[tube], [&](const Matches& places) {
-      Match match{part.squares(tubes_[tube], places), tube, places};
+      const float squares = part.squares(tubes_[tube], places);
       if (place == matches.size()) {
-        matches.push_back(std::move(match));
-      } else if (match.squares < matches[place].squares) {
-        matches[place] = std::move(match);
+        matches.push_back({squares, tube, places});
+      } else if (squares < matches[place].squares) {
+        matches[place] = {squares, tube, places};
       }
       ++place;
     });
@@ -260,33 +273,20 @@ void TubeShapes::slide(const Sample& part, Match& match) const {
   if (slid.squares < match.squares) match = std::move(slid);
 }
 
-// The poses in which a tube matches a part. About a straight part, it can have any angle.
-std::vector<Isometry3d> TubeShapes::poses_of(const Sample& part, const Match& match) const {
-  constexpr int angles = 16;
-  const Isometry3d pose = pose_of(tubes_[match.tube].places, match.places, part.places);
-  if (!part.is_straight(radius_)) return {pose};
-  const Vector3d middle = part.places[part.places.size() / 2];
-  const Vector3d axis = (part.places.back() - part.places.front()).normalized();
-  std::vector<Isometry3d> poses;
-  for (int i = 0; i < angles; ++i) {
-    const AngleAxisd turn(i * 360 * degree / angles, axis);
-    poses.push_back(Translation3d(middle) * turn * Translation3d(-middle) * pose);
-  }
-  return poses;
-}
-
 void TubeShapes::lay_on(const CentrePath& part, const std::function<bool(const Laid&)>& visit) const {
   const Sample sample(part);
+  const std::vector<Isometry3d> turns = sample.turns(radius_);
   for (Match& match : best_matches(sample)) {
     slide(sample, match);
     const auto [first, last] = std::ranges::minmax(match.places);
+    const Isometry3d pose = pose_of(tubes_[match.tube].places, match.places, sample.places);
     Laid laid{.strangeness = sample.root_mean(match.squares) / spread_,
               .tube = match.tube,
               .first = static_cast<std::size_t>(first),
               .last = static_cast<std::size_t>(last),
               .pose = {}};
-    for (const Isometry3d& pose : poses_of(sample, match)) {
-      laid.pose = pose;
+    for (const Isometry3d& turn : turns) {
+      laid.pose = turn * pose;
       if (!visit(laid)) return;
     }
   }
@@ -299,7 +299,8 @@ CentrePath TubeShapes::rest_of(const Laid& laid, double farther_than) const {
   for (std::size_t i = end; i + end < places.size(); ++i) {
     const std::size_t before = i < laid.first ? laid.first - i : 0;
     const std::size_t after = i > laid.last ? i - laid.last : 0;
-    if (static_cast<double>(before + after) * step_ > farther_than) rest.push_back(laid.pose * places[i]);
+    if (static_cast<double>(before + after) * step_length() > farther_than)
+      rest.push_back(laid.pose * places[i]);
   }
   return rest;
 }

@@ -75,6 +75,7 @@ private:
   /// m.
   struct Sample;
 
+  double step_length() const { return step * radius_; }  // m
   Distances distances_along(const CentrePath& tube) const;
   double misfit(const Sample& part, const Distances& tube) const;
   double misfit_with_straight(const Distances& tube) const;
@@ -82,10 +83,8 @@ private:
   void for_each_match(const Sample& part, const Distances& tube, const Visit& visit) const;
   std::vector<Match> best_matches(const Sample& part) const;
   void slide(const Sample& part, Match& match) const;
-  std::vector<Eigen::Isometry3d> poses_of(const Sample& part, const Match& match) const;
 
   double radius_ = 0;  // m
-  double step_ = 0;    // m, the same
   double spread_ = 0;  // m, median misfit of the known tubes with each other
   std::vector<Distances> tubes_;
   bool are_bent_ = false;
