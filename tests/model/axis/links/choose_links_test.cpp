@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "tests/model/axis/fragments/straight_fragment.hpp"
 
