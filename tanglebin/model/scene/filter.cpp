@@ -8,6 +8,34 @@
 #include "tanglebin/base/random.hpp"
 
 namespace tanglebin {
+namespace {
+
+/// The space within a margin of some boxes.
+class NearBoxes {
+public:
+  NearBoxes(const std::vector<Eigen::AlignedBox3d>& boxes, double margin) : margin_(margin) {
+    const Eigen::Vector3d grown = Eigen::Vector3d::Constant(margin);
+    for (const Eigen::AlignedBox3d& box : boxes)
+      boxes_.push_back({box, {box.min() - grown, box.max() + grown}});
+  }
+
+  bool contain(const Eigen::Vector3d& point) const {
+    return std::ranges::any_of(boxes_, [&](const auto& box) {
+      return box.grown.contains(point) && box.itself.squaredExteriorDistance(point) < margin_ * margin_;
+    });
+  }
+
+private:
+  struct Box {
+    Eigen::AlignedBox3d itself;
+    Eigen::AlignedBox3d grown;  // contains every point that is near enough, and is soon asked
+  };
+
+  double margin_;  // m
+  std::vector<Box> boxes_;
+};
+
+}  // namespace
 
 Eigen::AlignedBox3d crop_box(const Support& support, double overhang) {
   const Eigen::Vector3d far = Eigen::Vector3d::Constant(20);  // m; keeps the indices of grids in range
@@ -23,22 +51,19 @@ Eigen::AlignedBox3d crop_box(const Support& support, double overhang) {
 Cropped crop(const PointCloud& cloud, const Support& support, const FilterSettings& settings) {
   const std::vector<Eigen::AlignedBox3d> parts = solid_parts(support);
   const Eigen::AlignedBox3d around = crop_box(support, settings.overhang);
-  const auto is_within = [&](double margin, const Eigen::Vector3d& point) {
-    return std::ranges::any_of(parts, [&](const Eigen::AlignedBox3d& part) {
-      return part.squaredExteriorDistance(point) < margin * margin;
-    });
-  };
+  const NearBoxes solid(parts, settings.margin);
+  const NearBoxes in_doubt(parts, settings.margin + support.margin);
   Cropped cropped;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Eigen::Vector3d point = cloud.points[i].cast<double>();
     if (!point.allFinite()) continue;
     if (!around.contains(point)) {
       cropped.outside.push_back(i);
-    } else if (is_within(settings.margin, point)) {
+    } else if (solid.contain(point)) {
       cropped.support.push_back(i);
     } else {
       cropped.kept.push_back(i);
-      if (support.margin > 0 && is_within(settings.margin + support.margin, point)) cropped.near.push_back(i);
+      if (support.margin > 0 && in_doubt.contain(point)) cropped.near.push_back(i);
     }
   }
   return cropped;

@@ -1,63 +1,48 @@
 #include "tanglebin/model/axis/fragments/ramps.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <optional>
-#include <utility>
-
-#include "tanglebin/base/median.hpp"
 
 namespace tanglebin {
 namespace {
 
-/// The nearest point of each pixel, in the part of the image that has points.
+/// The nearest point of each pixel of the image.
 struct DepthGrid {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  std::size_t width = 0;
-  std::size_t height = 0;
+  std::size_t width;
+  std::size_t height;
   std::vector<float> depths;          // m, row by row; NaN where there is no point
   std::vector<std::uint32_t> points;  // none where there is none
 };
 
 DepthGrid depth_grid(const std::vector<Eigen::Vector3f>& points, const Camera& camera) {
-  std::vector<std::optional<SeenPixel>> seen;
-  seen.reserve(points.size());
-  Eigen::AlignedBox2i part;
-  for (const Eigen::Vector3f& point : points) {
-    seen.push_back(point.allFinite() ? seen_pixel(camera, point.cast<double>()) : std::nullopt);
-    if (seen.back()) part.extend(Eigen::Vector2i(seen.back()->pixel.column, seen.back()->pixel.row));
-  }
-  DepthGrid grid;
-  if (part.isEmpty()) return grid;
-  grid.width = static_cast<std::size_t>(part.sizes().x()) + 1;
-  grid.height = static_cast<std::size_t>(part.sizes().y()) + 1;
-  grid.depths.assign(grid.width * grid.height, std::numeric_limits<float>::quiet_NaN());
-  grid.points.assign(grid.width * grid.height, DepthGrid::none);
+  const auto width = static_cast<std::size_t>(camera.width);
+  const auto height = static_cast<std::size_t>(camera.height);
+  DepthGrid grid{width, height, std::vector(width * height, std::numeric_limits<float>::quiet_NaN()),
+                 std::vector(width * height, DepthGrid::none)};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!seen[i]) continue;
-    const auto row = static_cast<std::size_t>(seen[i]->pixel.row - part.min().y());
-    const auto column = static_cast<std::size_t>(seen[i]->pixel.column - part.min().x());
-    const std::size_t pixel = row * grid.width + column;
-    const auto depth = static_cast<float>(seen[i]->depth);
-    if (grid.points[pixel] != DepthGrid::none && grid.depths[pixel] <= depth) continue;
+    const std::optional<SeenPixel> seen = seen_pixel(camera, points[i].cast<double>());
+    if (!seen) continue;
+    const auto [column, row] = seen->pixel;
+    const std::size_t pixel = static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
+    const auto depth = static_cast<float>(seen->depth);
+    if (grid.depths[pixel] <= depth) continue;
     grid.depths[pixel] = depth;
     grid.points[pixel] = static_cast<std::uint32_t>(i);
   }
   return grid;
 }
 
-// m; 0 if there is no point.
-double median_depth(const DepthGrid& grid) {
-  std::vector<float> depths;
-  std::ranges::copy_if(grid.depths, std::back_inserter(depths),
-                       [](float depth) { return std::isfinite(depth); });
-  return depths.empty() ? 0 : median(std::move(depths));
+// Whether half of the points or more are deeper than this, m.
+bool is_mostly_deeper(const DepthGrid& grid, double depth) {
+  const auto all = std::ranges::count_if(grid.depths, [](float seen) { return !std::isnan(seen); });
+  const auto deeper = std::ranges::count_if(grid.depths, [&](float seen) { return seen > depth; });
+  return 2 * deeper >= all;
 }
 
 /// A line of pixels: a row or a column.
@@ -185,7 +170,7 @@ Ramps find_ramps(const std::vector<Eigen::Vector3f>& points, const Camera& camer
                  double thickest, const RampSettings& settings) {
   const DepthGrid grid = depth_grid(points, camera);
   const double pixel_angle = 1 / std::max(camera.fx, camera.fy);
-  if (thinnest < settings.pixels_min * pixel_angle * median_depth(grid))
+  if (is_mostly_deeper(grid, thinnest / (settings.pixels_min * pixel_angle)))
     return {std::vector<bool>(points.size()), 0};
   RampFinder finder(grid, pixel_angle, thickest, settings);
   for (std::size_t row = 0; row < grid.height; ++row) finder.look_along({row * grid.width, 1, grid.width});
