@@ -44,12 +44,12 @@ std::vector<Tube> tubes_in(const std::string& file) {
 
 // A dataset's case with its true labels and tubes, in its bin.
 ViewedScene scene_of(const DatasetCase& named) {
-  CaseData data = read_case(named.dataset, named.id);
-  ViewedScene scene{.name = name_of(named.id),
+  CaseData data = read_seen_case(named.dataset, named.seen);
+  ViewedScene scene{.name = name_of(named.seen),
                     .cloud = std::move(data.cloud),
                     .truth = Labelling{.name = "truth", .labels = {}, .tubes = std::move(data.tubes)},
                     .found = {},
-                    .support = {.bin = recipe_of(named.dataset, named.id).bin}};
+                    .support = {.bin = recipe_of(named.dataset, named.seen.scene).bin}};
   scene.truth->labels = truth_labels(scene.cloud, data.cloud_file);
   return scene;
 }
@@ -126,7 +126,7 @@ void add_view(CLI::App& app) {
   command
       ->add_option("input", arguments->input,
                    "Cloud (.ply, .pcd), tubes (configuration or tubes.json) or a dataset's case, such as "
-                   "DATASET/A10/1; - for standard input")
+                   "DATASET/A10/1 or DATASET/A10/left/1; - for standard input")
       ->required();
   command->add_option("--out", arguments->out, "Self-contained HTML page to write; - for standard output")
       ->required();

@@ -27,10 +27,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A case of a dataset, and which of its scanners.
-struct CaseName {
+/// A case of a dataset, as a user names it.
+struct CasePath {
+  fs::path dataset;
   std::string name;     ///< "A10/1"
-  std::string scanner;  ///< empty: the first
+  std::string scanner;  ///< empty if none is named
 };
 
 bool is_dataset(const fs::path& directory) {
@@ -40,13 +41,13 @@ bool is_dataset(const fs::path& directory) {
 
 // The case that a file of a dataset is of: "A10/plys/1.ply", or "A10/left/plys/1.ply" of a scanner with a
 // name.
-std::optional<CaseName> case_of_file(const fs::path& dataset, const std::string& file) {
+std::optional<CasePath> case_of_file(const fs::path& dataset, const std::string& file) {
   std::error_code error;
   const fs::path relative = fs::relative(file, dataset, error);
   const std::vector<fs::path> parts(relative.begin(), relative.end());
   const bool has_scanner = parts.size() == 4;
   if (error || (parts.size() != 3 && !has_scanner) || parts.front() == "..") return std::nullopt;
-  return CaseName{parts.front().string() + "/" + relative.stem().string(),
+  return CasePath{dataset, parts.front().string() + "/" + relative.stem().string(),
                   has_scanner ? parts[1].string() : ""};
 }
 
@@ -63,20 +64,38 @@ fs::path without_slash(const std::string& name) {
   return fs::path(name).has_filename() ? fs::path(name) : fs::path(name).parent_path();
 }
 
-/// A dataset's directory and the name of a case.
-struct CasePath {
-  fs::path dataset;
-  std::string name;
-};
-
-// Of a path like DATASET/A10/1, which is no file.
+// Of a path that is no file: DATASET/A10/1, or DATASET/A10/left/1 of a scanner with a name.
 std::optional<CasePath> case_path(const fs::path& path) {
   std::error_code ignored;
-  if (fs::exists(path, ignored) || !path.parent_path().has_filename()) return std::nullopt;
-  fs::path dataset = path.parent_path().parent_path();
-  if (dataset.empty()) dataset = ".";
-  if (!is_dataset(dataset)) return std::nullopt;
-  return CasePath{dataset, path.parent_path().filename().string() + "/" + path.filename().string()};
+  if (fs::exists(path, ignored)) return std::nullopt;
+  const std::string number = path.filename().string();
+  const auto in_dataset = [&](const fs::path& set, const std::string& scanner) -> std::optional<CasePath> {
+    if (!set.has_filename()) return std::nullopt;
+    const fs::path dataset = set.has_parent_path() ? set.parent_path() : ".";
+    if (!is_dataset(dataset)) return std::nullopt;
+    return CasePath{dataset, set.filename().string() + "/" + number, scanner};
+  };
+  const fs::path folder = path.parent_path();
+  const auto named = in_dataset(folder, "");
+  return named ? named : in_dataset(folder.parent_path(), folder.filename().string());
+}
+
+// The scanner that the path names, or the only one.
+Scanner scanner_of(const CasePath& path, const Recipe& recipe) {
+  const std::vector<Scanner> all = scanners(recipe);
+  if (path.scanner.empty() && all.size() == 1) return all.front();
+  const auto found = std::ranges::find(all, path.scanner, &Scanner::name);
+  if (found != all.end()) return *found;
+  const fs::path name = path.dataset / path.name;
+  std::string names;
+  for (const Scanner& scanner : all) {
+    const fs::path seen = name.parent_path() / scanner.name / name.filename();
+    names += (names.empty() ? "" : " or ") + seen.string();
+  }
+  throw InputError({path.dataset.string(), 0, "scanner"},
+                   path.scanner.empty() ? fmt::format("the {} scanners of {}", all.size(), path.name)
+                                        : excerpt(path.scanner),
+                   "one of them: " + names);
 }
 
 Scene scene_of_simulation(const KnownScene& known) {
@@ -85,24 +104,24 @@ Scene scene_of_simulation(const KnownScene& known) {
   return scene;
 }
 
-Scene scene_of_case(const fs::path& directory, const CaseName& named) {
-  const Dataset dataset = read_dataset(directory);
-  const CaseId id = case_named(dataset, named.name);
+Scene scene_of_case(const CasePath& path) {
+  const Dataset dataset = read_dataset(path.dataset);
+  const CaseId id = case_named(dataset, path.name);
   const Recipe recipe = recipe_of(dataset, id);
   KnownScene known = known_scene(recipe, id);
-  const std::vector<Scanner> all = scanners(recipe);
-  const auto scanner = std::ranges::find(all, named.scanner, &Scanner::name);
-  if (scanner != all.end()) known.camera = scanner->camera;
+  known.camera = scanner_of(path, recipe).camera;
   return scene_of_simulation(known);
 }
 
-Scene scene_of_dataset(const fs::path& directory, const std::string& input) {
-  const std::optional<CaseName> named = case_of_file(directory, input);
+// The case that --scene names, or that `input` is of if it names a dataset.
+std::optional<CasePath> case_meant(const fs::path& scene, const std::string& input) {
+  if (!is_dataset(scene)) return case_path(scene);
+  std::optional<CasePath> named = case_of_file(scene, input);
   if (!named)
-    throw InputError({directory.string(), 0, ""},
+    throw InputError({scene.string(), 0, ""},
                      fmt::format("a dataset, and {}, which is not in it", excerpt(input)),
-                     fmt::format("the case that it is of, such as {}", (directory / "A10" / "1").string()));
-  return scene_of_case(directory, *named);
+                     fmt::format("the case that it is of, such as {}", (scene / "A10" / "1").string()));
+  return named;
 }
 
 // What all cases of a recipe have in common.
@@ -120,13 +139,32 @@ Scene scene_of_recipe(const fs::path& file) {
   return scene;
 }
 
+// BOP's images, and the files of a dataset, are called by their numbers.
+std::optional<int> number_of(const std::string& file) {
+  return to_number<int>(fs::path(file).stem().string());
+}
+
 bool is_recipe(const fs::path& file) {
   return parse_toml(read_file(file), file.string()).contains("set");
 }
 
-// BOP's images, and the files of a dataset, are called by their numbers.
-std::optional<int> number_of(const std::string& file) {
-  return to_number<int>(fs::path(file).stem().string());
+// What a scene file or a recipe says; of a recipe's scanners, the first one's camera.
+Scene scene_of_file(const std::string& file, const std::string& input) {
+  const fs::path path = without_slash(file);
+  std::error_code ignored;
+  if (!fs::exists(path, ignored) || fs::is_directory(path, ignored))
+    throw InputError({"", 0, "--scene"},
+                     excerpt(file) + (fs::exists(path, ignored) ? ", a directory" : ", nothing"),
+                     "a scene file, a recipe, a dataset, or one of its cases, such as DATASET/A10/1");
+  return is_recipe(path) ? scene_of_recipe(path) : read_scene(path, number_of(input));
+}
+
+void expect_one_scanner(const fs::path& file) {
+  if (!is_recipe(file)) return;
+  const std::size_t count = scanners(read_recipe(file)).size();
+  if (count > 1)
+    throw InputError({file.string(), 0, "scanner"}, counted(count, "scanner"),
+                     "one, or what one of them sees of a dataset's case, such as DATASET/A10/left/1");
 }
 
 /// The value that an option's text stands for.
@@ -203,7 +241,8 @@ void add_scene_option(CLI::App& command, std::optional<std::string>& scene) {
   command
       .add_option("--scene", scene,
                   "What is known: a scene file (docs/formats.md), a recipe, a dataset's case such as "
-                  "DATASET/A10/1, or the dataset that the input is in")
+                  "DATASET/A10/1 (DATASET/A10/left/1 by the scanner left), or the dataset that the input is "
+                  "in")
       ->option_text("SCENE");
 }
 
@@ -242,25 +281,27 @@ std::optional<DatasetCase> dataset_case(const std::string& name) {
   const std::optional<CasePath> path = case_path(without_slash(name));
   if (!path) return std::nullopt;
   Dataset dataset = read_dataset(path->dataset);
-  CaseId id = case_named(dataset, path->name);
-  return DatasetCase{std::move(dataset), std::move(id)};
+  const CaseId id = case_named(dataset, path->name);
+  std::string scanner = scanner_of(*path, recipe_of(dataset, id)).name;
+  return DatasetCase{std::move(dataset), {id, std::move(scanner)}};
 }
 
 Scene scene_named(const std::string& scene, const std::string& input) {
   const fs::path path = without_slash(scene);
-  std::error_code ignored;
-  if (is_dataset(path)) return scene_of_dataset(path, input);
-  if (const auto named = case_path(path)) return scene_of_case(named->dataset, {named->name, ""});
-  if (!fs::exists(path, ignored) || fs::is_directory(path, ignored))
-    throw InputError({"", 0, "--scene"},
-                     excerpt(scene) + (fs::exists(path, ignored) ? ", a directory" : ", nothing"),
-                     "a scene file, a recipe, a dataset, or one of its cases, such as DATASET/A10/1");
-  return is_recipe(path) ? scene_of_recipe(path) : read_scene(path, number_of(input));
+  if (const auto named = case_meant(path, input)) return scene_of_case(*named);
+  Scene read = scene_of_file(scene, input);
+  expect_one_scanner(path);
+  return read;
 }
 
 Support support_in(const std::optional<std::string>& scene, const std::string& input) {
-  const Scene named = scene ? scene_named(*scene, input) : Scene{};
-  return named.support.value_or(Support{.shape = Support::Shape::nothing});
+  constexpr auto nothing = Support::Shape::nothing;
+  if (!scene) return {.shape = nothing};
+  if (const auto named = case_meant(without_slash(*scene), input)) {
+    const Dataset dataset = read_dataset(named->dataset);
+    return {.bin = recipe_of(dataset, case_named(dataset, named->name)).bin};
+  }
+  return scene_of_file(*scene, input).support.value_or(Support{.shape = nothing});
 }
 
 Scene scene_of(const SceneOptions& options, const std::string& input) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/scene/resolve_scene.hpp"
 #include "tanglebin/scene/scene.hpp"
 
@@ -35,21 +36,23 @@ void add_camera_options(CLI::App& command, SceneOptions& options);
 /// Adds --radius, --length and --tree, which fill `options`.
 void add_tube_options(CLI::App& command, SceneOptions& options);
 
-/// The scene that --scene names: a scene file, a recipe, a dataset's case as DATASET/A10/1, or a dataset in
-/// which `input`, a file, is. Throws InputError naming what is wrong with it.
+/// The scene that --scene names: a scene file, a recipe, a dataset's case as DATASET/A10/1, with the
+/// scanner's name if there are several (DATASET/A10/left/1), or a dataset in which `input`, a file, is.
+/// Throws InputError naming what is wrong with it.
 Scene scene_named(const std::string& scene, const std::string& input);
 
 /// The support of the scene that --scene names; nothing without one.
 Support support_in(const std::optional<std::string>& scene, const std::string& input);
 
-/// A finished case of a dataset.
+/// A finished case of a dataset, as one of its scanners sees it.
 struct DatasetCase {
   Dataset dataset;
-  CaseId id;
+  SeenCase seen;
 };
 
-/// The case that a path such as DATASET/A10/1 names; none for the path of a file or of nothing in a dataset.
-/// Throws InputError for a case that the dataset does not have.
+/// The case that a path such as DATASET/A10/1 or DATASET/A10/left/1 names; none for the path of a file or of
+/// nothing in a dataset. Throws InputError for a case or a scanner that the dataset does not have, and if
+/// several scanners see the case and none is named.
 std::optional<DatasetCase> dataset_case(const std::string& name);
 
 /// The scene of the options, of which all but --scene override its single values. `input` is the cloud's
