@@ -132,26 +132,34 @@ SurfaceImage draw_discs(const std::vector<Splat>& splats, const PointCloud& clou
   return image;
 }
 
+bool is_in_image(const Camera& camera, int u, int v) {
+  return u >= 0 && v >= 0 && u < camera.width && v < camera.height;
+}
+
 /// The surface normal around a sample, from the plane whose depth fits the neighbours of the same object best
-/// (least squares).
+/// (least squares). Of a wide neighbourhood, where points are sparse, some 50 samples tell as much as all.
 Vector3f estimate_normal(const SurfaceImage& image, int u, int v, int radius) {
   constexpr float steepest = 4;  // a steeper rise between samples means another surface
   const Camera& camera = image.camera;
   const SurfaceSample& sample = image.at(u, v);
   const auto focal_length = static_cast<float>(camera.fx);
+  constexpr int samples_across = 6;
+  const int stride = std::max(1, 2 * radius / samples_across);
+  const int reach = radius / stride * stride;
   const float largest_step = steepest * static_cast<float>(radius) * sample.depth / focal_length;
   float uu = 0;
   float vv = 0;
   float uv = 0;
   float ud = 0;
   float vd = 0;
-  for (int y = std::max(v - radius, 0); y <= std::min(v + radius, camera.height - 1); ++y) {
-    for (int x = std::max(u - radius, 0); x <= std::min(u + radius, camera.width - 1); ++x) {
-      const SurfaceSample& other = image.at(x, y);
+  for (int dy = -reach; dy <= reach; dy += stride) {
+    for (int dx = -reach; dx <= reach; dx += stride) {
+      if (!is_in_image(camera, u + dx, v + dy)) continue;
+      const SurfaceSample& other = image.at(u + dx, v + dy);
       const float step = other.depth - sample.depth;
       if (other.object != sample.object || std::abs(step) > largest_step) continue;
-      const auto du = static_cast<float>(x - u);
-      const auto dv = static_cast<float>(y - v);
+      const auto du = static_cast<float>(dx);
+      const auto dv = static_cast<float>(dy);
       uu += du * du;
       vv += dv * dv;
       uv += du * dv;
