@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <queue>
 #include <unordered_map>
@@ -283,8 +284,11 @@ public:
         skeleton_of_(grid.voxels.size(), no_index) {}
 
   void cut(const std::vector<std::size_t>& members) {
+    std::vector<Part> parts;
     for (const std::vector<std::size_t>& component : connected_components(grid_.voxels, members, seen_))
-      take_all(without_weak(component, settings_.weak_max), 0);
+      std::ranges::move(parts_of(without_weak(component, settings_.weak_max)), std::back_inserter(parts));
+    parallel_max_ = parallel_max_of(parts);
+    for (Part& part : parts) take(std::move(part), 0);
   }
 
   std::vector<Skeleton> skeletons() {
@@ -297,24 +301,36 @@ public:
   }
 
 private:
-  void take_all(const std::vector<std::size_t>& members, std::size_t cuts) {
-    for (const std::vector<std::size_t>& component : connected_components(grid_.voxels, members, seen_))
-      take(component, cuts);
+  /// A connected set of voxels.
+  struct Part {
+    std::vector<std::size_t> voxels;
+    Skeleton whole;     // its tree
+    Skeleton skeleton;  // without what is noise
+    bool is_tube;       // looks like one
+  };
+
+  std::vector<Part> parts_of(const std::vector<std::size_t>& members) {
+    std::vector<Part> parts;
+    for (std::vector<std::size_t>& voxels : connected_components(grid_.voxels, members, seen_)) {
+      Skeleton whole = maker_.tree(voxels);
+      Skeleton skeleton = Pruner(whole, settings_.branch_min).pruned();
+      const bool is_tube = looks_like_a_tube(skeleton, voxels);
+      parts.push_back({std::move(voxels), std::move(whole), std::move(skeleton), is_tube});
+    }
+    return parts;
   }
 
-  // A component that is left after this number of cuts: of weak voxels and of forks, by turns.
-  void take(const std::vector<std::size_t>& component, std::size_t cuts) {
-    const Skeleton whole = maker_.tree(component);
-    Skeleton skeleton = Pruner(whole, settings_.branch_min).pruned();
-    if (looks_like_a_tube(skeleton, component)) {
-      if (cuts > 0 && !is_round(component)) return;
-      for (const std::size_t member : component) skeleton_of_[member] = skeletons_.size();
-      skeletons_.push_back(std::move(skeleton));
+  // A part that is left after this number of cuts: of weak voxels and of forks, by turns.
+  void take(Part part, std::size_t cuts) {
+    if (part.is_tube) {
+      if (cuts > 0 && parallelism(part.voxels) >= parallel_max_) return;
+      for (const std::size_t voxel : part.voxels) skeleton_of_[voxel] = skeletons_.size();
+      skeletons_.push_back(std::move(part.skeleton));
     } else if (cuts < 2 * weak_shares.size()) {
       const bool is_weak_next = cuts % 2 == 0;
-      take_all(
-          is_weak_next ? without_weak(component, weak_shares[cuts / 2]) : without_forks(component, whole),
-          cuts + 1);
+      for (Part& rest : parts_of(is_weak_next ? without_weak(part.voxels, weak_shares[cuts / 2])
+                                              : without_forks(part.voxels, part.whole)))
+        take(std::move(rest), cuts + 1);
     }
   }
 
@@ -335,15 +351,28 @@ private:
     return static_cast<double>(near) >= settings_.share_min * static_cast<double>(all);
   }
 
-  // Seen from more than one side: the normals that lead to one place of the axis differ.
-  bool is_round(const std::vector<std::size_t>& component) const {
+  // How alike the normals are that lead to one place: 1 on a plane, less on a tube, which is seen from more
+  // than one side.
+  double parallelism(const std::vector<std::size_t>& voxels) const {
     double sum = 0;
     double votes = 0;
-    for (const std::size_t member : component) {
-      sum += grid_.voxels[member].normals.norm();
-      votes += static_cast<double>(grid_.voxels[member].points);
+    for (const std::size_t voxel : voxels) {
+      sum += grid_.voxels[voxel].normals.norm();
+      votes += static_cast<double>(grid_.voxels[voxel].points);
     }
-    return sum < settings_.parallel_max * votes;
+    return sum / votes;
+  }
+
+  // Where a tube has few pixels across, it looks flatter. So the parts that look like tubes as they are say
+  // what tubes look like here.
+  double parallel_max_of(const std::vector<Part>& parts) const {
+    constexpr double share = 1.0 / 3;
+    std::vector<double> tubes;
+    for (const Part& part : parts) {
+      if (part.is_tube) tubes.push_back(parallelism(part.voxels));
+    }
+    if (tubes.empty()) return settings_.parallel_max;
+    return std::max(settings_.parallel_max, 1 - share * (1 - median(std::move(tubes))));
   }
 
   static bool has_branches(const Skeleton& skeleton) {
@@ -406,6 +435,7 @@ private:
   VoxelGrid& grid_;
   const CutSettings& settings_;
   TreeMaker maker_;
+  double parallel_max_ = 1;
   std::vector<bool> seen_;
   std::vector<std::size_t> skeleton_of_;  // of each voxel; no_index if it is in none
   std::vector<Skeleton> skeletons_;
