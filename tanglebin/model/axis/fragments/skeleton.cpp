@@ -364,15 +364,17 @@ private:
   }
 
   // Where a tube has few pixels across, it looks flatter. So the parts that look like tubes as they are say
-  // what tubes look like here.
+  // what tubes look like here, unless those are planes themselves, as with a wrong radius.
   double parallel_max_of(const std::vector<Part>& parts) const {
-    constexpr double share = 1.0 / 3;
-    std::vector<double> tubes;
+    std::vector<std::size_t> of_tubes;
     for (const Part& part : parts) {
-      if (part.is_tube) tubes.push_back(parallelism(part.voxels));
+      if (part.is_tube) of_tubes.insert(of_tubes.end(), part.voxels.begin(), part.voxels.end());
     }
-    if (tubes.empty()) return settings_.parallel_max;
-    return std::max(settings_.parallel_max, 1 - share * (1 - median(std::move(tubes))));
+    constexpr double share = 0.25;
+    constexpr double of_a_plane = 0.99;
+    const double typical = of_tubes.empty() ? of_a_plane : parallelism(of_tubes);
+    if (typical >= of_a_plane) return settings_.parallel_max;
+    return std::max(settings_.parallel_max, 1 - share * (1 - typical));
   }
 
   static bool has_branches(const Skeleton& skeleton) {
