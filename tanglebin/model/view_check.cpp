@@ -218,22 +218,25 @@ public:
     (beyond > tolerance ? cell.is_seen_past : beyond < -tolerance ? cell.is_hidden : cell.is_found) = true;
   }
 
-  /// The shares of the cells, not counting those where something is in front.
-  struct Shares {
-    double found = 0;
-    double seen_past = 0;
-    std::size_t cells = 0;
+  /// How many cells of the rim show what. Those where only something in front is seen are in none.
+  struct Counts {
+    std::size_t found = 0;
+    std::size_t seen_past = 0;
+    std::size_t empty = 0;  ///< without points
+
+    std::size_t all() const { return found + seen_past + empty; }
   };
-  Shares shares() const {
-    Shares shares;
+  Counts counts() const {
+    Counts counts;
     for (const Cell& cell : cells_) {
-      if (cell.depth == 0 || (cell.is_hidden && !cell.is_found)) continue;
-      ++shares.cells;
-      shares.found += cell.is_found ? 1 : 0;
-      shares.seen_past += cell.is_seen_past && !cell.is_found ? 1 : 0;
+      if (cell.depth == 0) continue;
+      if (cell.is_found) {
+        ++counts.found;
+      } else if (!cell.is_hidden) {
+        ++(cell.is_seen_past ? counts.seen_past : counts.empty);
+      }
     }
-    const auto cells = static_cast<double>(std::max<std::size_t>(1, shares.cells));
-    return {shares.found / cells, shares.seen_past / cells, shares.cells};
+    return counts;
   }
 
 private:
@@ -256,6 +259,15 @@ private:
   std::vector<Cell> cells_;
 };
 
+// What a scanner did not measure does not speak against the bin if enough of the rim was found.
+bool is_there(const RimCells::Counts& cells, std::size_t enough) {
+  constexpr double least = 0.4;
+  const auto are_found_of = [&](std::size_t part) {
+    return static_cast<double>(cells.found) >= least * static_cast<double>(part);
+  };
+  return are_found_of(cells.all()) || (cells.found >= enough && are_found_of(cells.found + cells.seen_past));
+}
+
 std::optional<Finding> doubt_of_rim(const PointCloud& cloud, const KnownScene& known) {
   RimCells rim(known.support, known.camera);
   constexpr double tolerance = 0.015;
@@ -265,14 +277,16 @@ std::optional<Finding> doubt_of_rim(const PointCloud& cloud, const KnownScene& k
     if (cloud.points[i].allFinite())
       rim.see(cloud.points[i].cast<double>(), tolerance + known.support.margin);
   }
-  const auto [found, seen_past, cells] = rim.shares();
+  const RimCells::Counts cells = rim.counts();
   constexpr std::size_t cells_min = 20;
-  constexpr double least = 0.4;
-  if (cells < cells_min || found >= least) return std::nullopt;
-  return warning(
-      "bin", fmt::format("of the bin's rim, {:.0f} % is where the scene has it; {:.0f} % is seen past: the "
-                         "bin may have another size or pose",
-                         100 * found, 100 * seen_past));
+  if (cells.all() < cells_min || is_there(cells, cells_min)) return std::nullopt;
+  const auto percent = [&](std::size_t part) {
+    return 100 * static_cast<double>(part) / static_cast<double>(cells.all());
+  };
+  return warning("bin",
+                 fmt::format("of the bin's rim, {:.0f} % is where the scene has it, {:.0f} % is seen past "
+                             "and {:.0f} % has no points: the bin may have another size or pose",
+                             percent(cells.found), percent(cells.seen_past), percent(cells.empty)));
 }
 
 /// The points on the floor and in the solid, m, in the support's frame.

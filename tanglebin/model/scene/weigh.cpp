@@ -5,7 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "tanglebin/base/median.hpp"
 #include "tanglebin/model/scene/confidence.hpp"
 
 namespace tanglebin {
@@ -88,30 +92,69 @@ private:
 /// Finds the radius that fits points around a tube. Seen from one side, a tube that is too thin in the model
 /// is moved by the fit until it lies right in the mean; what is left of the error then grows with the angle
 /// from the line of sight. So a change of the radius and a move, towards the sensor and sideways, are fitted
-/// together, in one step of least squares.
+/// together by least squares. A few points of a neighbour would spoil that, so outliers are left out.
 class RadiusFit {
 public:
+  explicit RadiusFit(double radius) : radius_(radius) {}
+
   void add(const Vector3d& outwards, const Vector3d& along, const Vector3d& to_sensor, double residual) {
     const Vector3d upwards = (to_sensor - to_sensor.dot(along) * along).normalized();
-    const Vector3d row(1, outwards.dot(upwards), outwards.dot(along.cross(upwards)));
-    products_ += row * row.transpose();
-    right_side_ += row * residual;
-    ++points_;
+    points_.push_back({{1, outwards.dot(upwards), outwards.dot(along.cross(upwards))}, residual});
   }
 
   // m; 0 if there are too few points, or all of them on one side.
   double error() const {
-    constexpr int points_min = 30;
-    if (points_ < points_min) return 0;
-    const double independent = 1 / products_.inverse()(0, 0) / points_;  // of the mean square of the row's 1
-    constexpr double independent_min = 1e-4;
-    return independent > independent_min ? products_.ldlt().solve(right_side_)(0) : 0;
+    constexpr int rounds = 5;
+    Vector3d change = Vector3d::Zero();
+    double inlier_max = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < rounds; ++i) {
+      const std::optional<Vector3d> fitted = least_squares(change, inlier_max);
+      if (!fitted) return 0;
+      change = *fitted;
+      inlier_max = largest_inlier(change);
+    }
+    return change(0);
   }
 
 private:
-  Matrix3d products_ = Matrix3d::Zero();
-  Vector3d right_side_ = Vector3d::Zero();
-  int points_ = 0;
+  struct Point {
+    Vector3d terms;   // how its residual changes with the radius and the two moves
+    double residual;  // m
+
+    double left(const Vector3d& change) const { return std::abs(residual - terms.dot(change)); }
+  };
+
+  // Over the points of which at most so much is left after a change.
+  std::optional<Vector3d> least_squares(const Vector3d& change, double left_max) const {
+    Matrix3d products = Matrix3d::Zero();
+    Vector3d right_side = Vector3d::Zero();
+    int points = 0;
+    for (const Point& point : points_) {
+      if (point.left(change) > left_max) continue;
+      products += point.terms * point.terms.transpose();
+      right_side += point.terms * point.residual;
+      ++points;
+    }
+    constexpr int points_min = 30;
+    if (points < points_min) return std::nullopt;
+    const double independent = 1 / products.inverse()(0, 0) / points;  // of the mean square of the row's 1
+    constexpr double independent_min = 1e-4;
+    if (!(independent > independent_min)) return std::nullopt;
+    return products.ldlt().solve(right_side);
+  }
+
+  // Three standard deviations, from the median, and 2 % of the radius at least.
+  double largest_inlier(const Vector3d& change) const {
+    std::vector<double> left;
+    left.reserve(points_.size());
+    for (const Point& point : points_) left.push_back(point.left(change));
+    constexpr double deviations = 3 * 1.4826;
+    constexpr double least = 0.02;
+    return std::max(deviations * median(std::move(left)), least * radius_);
+  }
+
+  double radius_;
+  std::vector<Point> points_;
 };
 
 LengthFit length_fit(double length, const TubeKind& kind) {
@@ -124,7 +167,7 @@ LengthFit length_fit(double length, const TubeKind& kind) {
 void weigh(TubeEvidence& evidence, const Tube& tube, const std::vector<Vector3d>& points,
            const KnownScene& known) {
   CentreLine line(tube);
-  RadiusFit radius;
+  RadiusFit radius(tube.radius);
   const Vector3d camera = known.camera.pose.translation();
   double squares = 0;
   std::size_t beside = 0;

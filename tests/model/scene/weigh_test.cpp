@@ -89,6 +89,16 @@ TEST_F(Evidence, FeelsARadiusThatIsWrongAlthoughTheTubeWasFitted) {
   EXPECT_NEAR(weighed(cloud).radius_error, lacking, 0.1 * lacking);
 }
 
+TEST_F(Evidence, FeelsTheRadiusInSpiteOfAFewPointsOfANeighbour) {
+  PointCloud cloud = upper_half(tube_, test::radius, 0, 0.5);
+  const PointCloud neighbour = upper_half(tube_, 1.5 * test::radius, 0, 0.5);
+  const std::size_t first_of_left_flank = cloud.points.size() / 2;
+  for (std::size_t i = first_of_left_flank; i < cloud.points.size(); i += 19) {
+    if (i % 21 < 5) cloud.points[i] = neighbour.points[i];
+  }
+  EXPECT_NEAR(weighed(cloud).radius_error, 0, 1e-6);
+}
+
 TEST_F(Evidence, ResidualIsTheScatterAboutTheSurface) {
   PointCloud cloud = upper_half(tube_, test::radius, 0, 0.5);
   const PointCloud outer = upper_half(tube_, test::radius + 0.001, 0, 0.5);
