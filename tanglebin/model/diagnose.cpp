@@ -213,15 +213,22 @@ private:
     return median(std::move(values));
   }
 
+  // Of the points about the tubes, in radii.
+  std::optional<double> scatter() const {
+    return median_of_tubes(
+        [](const Tube& tube, const TubeEvidence& evidence) { return evidence.residual / tube.radius; });
+  }
+
   void doubt_radius() {
     const std::optional<double> error = median_of_tubes(
         [](const Tube& tube, const TubeEvidence& evidence) { return evidence.radius_error / tube.radius; });
     constexpr double tolerance = 0.06;
+    constexpr double scatters = 1.7;  // noise makes tubes look thicker by 1.5 times their scatter at most
     const std::optional<double> other = is_most_unexplained() ? other_radius() : std::nullopt;
     if (other) {
       warn("radius", fmt::format("most points are on no tube of radius {}; they look like tubes of radius {}",
                                  radii(), millimetres(*other)));
-    } else if (error && std::abs(*error) > tolerance) {
+    } else if (error && std::abs(*error) > std::max(tolerance, scatters * *scatter())) {
       warn("radius",
            fmt::format("the tubes look {:.0f} % {} than their radius of {}: is it right? --radius auto "
                        "estimates it",
@@ -263,8 +270,7 @@ private:
                "only {:.1f} points lie across a tube, and fewer than {} are too few to tell tubes apart "
                "safely: scan from nearer, with more pixels, or downsample less",
                *across * std::sqrt(ratio_), points_across_min));
-    const std::optional<double> noise = median_of_tubes(
-        [](const Tube& tube, const TubeEvidence& evidence) { return evidence.residual / tube.radius; });
+    const std::optional<double> noise = scatter();
     constexpr double noise_max = 0.1;
     if (noise && *noise > noise_max)
       warn("noise", fmt::format("the points scatter about the tubes by {:.0f} % of the radius, and more than "

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ using test::organized;
 using test::right_view;
 using test::View;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
@@ -114,6 +116,31 @@ TEST(Diagnose, IsNotTroubledByTheTableThatTheBinStandsOn) {
   EXPECT_GT(model.counts.below_support, before.below_support + 5'000) << "in the image";
   EXPECT_EQ(model.counts.unexplained, before.unexplained);
   EXPECT_EQ(text_of(model.findings), "");
+}
+
+// Of the four sides of its rim, the scanner measured one.
+TEST(Diagnose, IsNotTroubledByARimThatWasNotMeasured) {
+  View view = right_view();
+  const Bin& bin = view.scene.support.bin;
+  for (Vector3f& point : view.cloud.points) {
+    const bool is_on_a_side_that_is_lost = point.x() > -bin.length / 2 + 0.02;
+    if (is_on_a_side_that_is_lost && point.z() > bin.height - 0.05) point.setConstant(nan);
+  }
+  EXPECT_EQ(text_of(model_of(view).findings), "");
+}
+
+TEST(Diagnose, DoesNotTakeNoiseForAnotherRadius) {
+  View view = right_view();
+  const Vector3d camera = view.scene.camera.pose.translation();
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 0.003);
+  for (Vector3f& point : view.cloud.points) {
+    const Vector3d seen = point.cast<double>();
+    point = (seen + noise(random) * (seen - camera).normalized()).cast<float>();
+  }
+  const std::string text = text_of(model_of(view).findings);
+  EXPECT_THAT(text, HasSubstr("noise: "));
+  EXPECT_THAT(text, Not(HasSubstr("radius: ")));
 }
 
 TEST(Diagnose, WhatTheCameraCannotHaveSeenIsNullEvenOnTheBin) {

@@ -19,7 +19,7 @@ ConfidenceFeatures features_of(const TubeEvidence& evidence, const TubeKind& kin
           excess,
           1 - evidence.coverage(),
           std::min(1.0, evidence.residual / kind.radius),
-          std::min(1.0, std::abs(evidence.radius_error) / kind.radius),
+          std::min(1.0, std::abs(evidence.unevenness) / kind.radius),
           std::log(std::max(1.0, evidence.visible_length / kind.radius))};
 }
 

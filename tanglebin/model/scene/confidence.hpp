@@ -11,7 +11,7 @@ namespace tanglebin {
 
 /// What a tube's confidence follows from: 1; the least margin of its joins, in tens, at most 2, and 2 without
 /// joins; the fraction of the known length that it lacks, and that it has too much; the hidden share of its
-/// centre line; the residual, and the size of the radius error, in radii, at most 1; and the logarithm of the
+/// centre line; the residual, and the size of the unevenness, in radii, at most 1; and the logarithm of the
 /// visible length in radii, at least 0.
 inline constexpr std::size_t confidence_features = 8;
 using ConfidenceFeatures = std::array<double, confidence_features>;

@@ -32,9 +32,11 @@ struct TubeEvidence {
   std::vector<TubeJoin> joins;  ///< empty for methods without odds (paper)
   std::size_t points = 0;       ///< with its label
   double residual = 0;          ///< m, root mean square distance of these points from its surface
-  double radius_error = 0;      ///< m, by how much a thicker tube would fit these points better; thinner: < 0
-  double length = 0;            ///< m, of its centre line, with all branches
-  double visible_length = 0;    ///< m, of the part of the centre line that has points
+  double radius_error = 0;      ///< m, by how much a thicker tube would fit these points better, not counting
+                                ///< outliers; thinner: < 0
+  double unevenness = 0;      ///< m, the same with outliers: large where points of other tubes are among them
+  double length = 0;          ///< m, of its centre line, with all branches
+  double visible_length = 0;  ///< m, of the part of the centre line that has points
   LengthFit length_fit = LengthFit::unknown;
   double confidence = 0;  ///< that this is one whole tube, 0 to 1 (docs/algorithm.md)
 

@@ -92,7 +92,7 @@ private:
 /// Finds the radius that fits points around a tube. Seen from one side, a tube that is too thin in the model
 /// is moved by the fit until it lies right in the mean; what is left of the error then grows with the angle
 /// from the line of sight. So a change of the radius and a move, towards the sensor and sideways, are fitted
-/// together by least squares. A few points of a neighbour would spoil that, so outliers are left out.
+/// together by least squares.
 class RadiusFit {
 public:
   explicit RadiusFit(double radius) : radius_(radius) {}
@@ -103,10 +103,15 @@ public:
   }
 
   // m; 0 if there are too few points, or all of them on one side.
+  double error_with_outliers() const {
+    return least_squares(Vector3d::Zero(), infinite).value_or(Vector3d::Zero())(0);
+  }
+
+  // The same, but a few points of a neighbour do not matter.
   double error() const {
     constexpr int rounds = 5;
     Vector3d change = Vector3d::Zero();
-    double inlier_max = std::numeric_limits<double>::infinity();
+    double inlier_max = infinite;
     for (int i = 0; i < rounds; ++i) {
       const std::optional<Vector3d> fitted = least_squares(change, inlier_max);
       if (!fitted) return 0;
@@ -117,6 +122,8 @@ public:
   }
 
 private:
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+
   struct Point {
     Vector3d terms;   // how its residual changes with the radius and the two moves
     double residual;  // m
@@ -185,6 +192,7 @@ void weigh(TubeEvidence& evidence, const Tube& tube, const std::vector<Vector3d>
   }
   if (beside > 0) evidence.residual = std::sqrt(squares / static_cast<double>(beside));
   evidence.radius_error = radius.error();
+  evidence.unevenness = radius.error_with_outliers();
   evidence.length = total_length(tube);
   evidence.visible_length = line.seen_length();
   const TubeKind& kind = known.kinds.at(evidence.kind);
