@@ -61,7 +61,7 @@ void print_json(const LocatedScene& found) {
   print_json_line(json);
 }
 
-void print_table(const Located& located) {
+void print_table(const Located& located, bool wall_is_given) {
   const Eigen::Vector3d position = located.support.pose.translation();
   const Eigen::Quaterniond rotation(located.support.pose.linear());
   const Eigen::Vector3d position_sd = located.position_sd / millimetre;
@@ -79,9 +79,9 @@ void print_table(const Located& located) {
   if (located.support.shape == Support::Shape::bin) {
     const Bin& measured = located.measured;
     const Bin& given = located.support.bin;
-    print_out("sizes      {:.4f} x {:.4f} x {:.4f} m, wall {:.4f} m; given {} x {} x {} m, wall {} m\n",
+    print_out("sizes      {:.4f} x {:.4f} x {:.4f} m, wall {:.4f} m; given {} x {} x {} m{}\n",
               measured.length, measured.width, measured.height, measured.wall, given.length, given.width,
-              given.height, given.wall);
+              given.height, wall_is_given ? fmt::format(", wall {} m", given.wall) : "");
   }
   for (const LocatedPart& part : located.parts)
     print_out("{:<24} {:>6} points  {:.2f} mm\n", part.name, part.points, part.noise / millimetre);
@@ -107,7 +107,7 @@ void locate_in_cloud(const LocateArguments& arguments) {
   if (arguments.json) {
     print_json(found);
   } else {
-    print_table(found.located);
+    print_table(found.located, told.wall_is_given);
   }
 }
 

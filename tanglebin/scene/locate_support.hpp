@@ -11,7 +11,7 @@ namespace tanglebin {
 
 /// A scene whose support was found.
 struct LocatedScene {
-  Scene scene;                     ///< as given, with the pose of its support
+  Scene scene;  ///< as given, with the pose of its support, and a bin's wall as measured if it was not given
   Located located;                 ///< what was found, in the world frame
   std::vector<std::string> notes;  ///< of resolve_without_tubes()
 };

@@ -253,8 +253,12 @@ TubeClass read_tubes(const TomlTable& table) {
 
 Scene read_root(const TomlTable& root, const std::filesystem::path& directory, std::optional<int> image) {
   root.allow({"camera", "support", "tube"});
-  Scene scene{.camera = read_camera(root.table("camera"), directory, image), .support = {}, .tubes = {}};
-  if (root.has("support")) scene.support = read_support(root.table("support"));
+  Scene scene{.camera = read_camera(root.table("camera"), directory, image)};
+  if (root.has("support")) {
+    const TomlTable support = root.table("support");
+    scene.support = read_support(support);
+    scene.wall_is_given = has_any(support, {"wall", "preset"});
+  }
   for (const TomlTable& tubes : root.tables("tube")) scene.tubes.push_back(read_tubes(tubes));
   return scene;
 }

@@ -44,6 +44,7 @@ struct SceneCamera {
 struct Scene {
   SceneCamera camera{};
   std::optional<Support> support{};
+  bool wall_is_given = true;       ///< of a bin; if not, locate_support() measures how thick its walls are
   std::vector<TubeClass> tubes{};  ///< empty: one class of which nothing is known
 };
 
