@@ -159,13 +159,22 @@ void take_camera(const SceneCamera& camera, const ScanArguments& arguments, Scan
                 *arguments.scanner);
 }
 
+// The scanner of a dataset's case or a recipe is the scene's, unless another one is asked for.
+std::optional<Scanner> own_scanner(const ScanArguments& arguments) {
+  if (!arguments.scene || arguments.scanner) return std::nullopt;
+  const std::optional<Scanner> own = scanner_in(*arguments.scene, arguments.configuration);
+  return own ? std::optional(scanner_with(*own, arguments.parameters, "--parameter")) : std::nullopt;
+}
+
 Setting setting_of(const ScanArguments& arguments) {
+  const std::optional<Scanner> own = own_scanner(arguments);
   Setting setting{
-      .scanner = scanner_with(arguments.scanner.value_or("paper"), arguments.parameters, "--parameter"),
+      .scanner =
+          own ? *own : scanner_with(arguments.scanner.value_or("paper"), arguments.parameters, "--parameter"),
       .support = {.bin = bin_preset(arguments.bin)}};
   if (arguments.scene) {
     const Scene scene = scene_named(*arguments.scene, arguments.configuration);
-    take_camera(scene.camera, arguments, setting.scanner);
+    if (!own) take_camera(scene.camera, arguments, setting.scanner);
     setting.support = scene.support.value_or(Support{.shape = Support::Shape::nothing});
   }
   if (setting.support.shape == Support::Shape::bin) {
@@ -182,7 +191,7 @@ void scan_configuration(const ScanArguments& arguments) {
   const std::uint64_t seed = seed_of(arguments);
   const std::vector<Tube> tubes =
       read_input(arguments.configuration, [](auto&&... from) { return read_configuration(from...); });
-  const Scan view = scan(tubes, support, scanner.camera, scanner.sensor, seed);
+  const Scan view = scan(tubes, support, scanner.camera, scanner.sensor, seed, scanner.name);
   if (!tubes.empty() && !shows_a_tube(view)) warn_of_no_tube(scanner.camera, tubes);
   write_outputs(contents(arguments, tubes, support, view));
   if (!take_standard_output(outputs(arguments))) print_summary(arguments, view, tubes);
@@ -208,9 +217,8 @@ void add_scan(CLI::App& app) {
   command
       ->add_option("--scanner", arguments->scanner,
                    "Scanner: paper (ideal), gaussian, zivid-one-plus-l, kinect-v1 or phoxi; its camera too, "
-                   "unless the "
-                   "scene has one")
-      ->option_text("NAME [paper]");
+                   "unless the scene has one; without this, the scene's scanner, or paper")
+      ->option_text("NAME");
   command
       ->add_option("--parameter", arguments->parameters,
                    "Set a parameter of the scanner, such as scanner.baseline=0.3 (docs/sensor.md)")

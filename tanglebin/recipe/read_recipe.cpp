@@ -33,6 +33,27 @@ std::string toml_line(const std::string& setting) {
   return is_string ? fmt::format("{} = {:?}", setting.substr(0, middle), value) : setting;
 }
 
+std::string text_of(const std::vector<std::string>& settings) {
+  std::string text;
+  for (const std::string& setting : settings) text += toml_line(setting) + '\n';
+  return text;
+}
+
+// What `read` makes of the [scanner] of settings from the command line.
+template <typename Read>
+Scanner scanner_from(const std::string& text, const std::string& option, const Read& read) {
+  const toml::table tree = parse_toml(text, option);
+  const TomlSource source(option, tree);
+  const TomlTable table(source, tree, "");
+  table.allow({"scanner"});
+  const Scanner scanner = read(table.table("scanner"));
+  validate_at(source, [&] {
+    validate(scanner.camera);
+    validate(scanner.sensor);
+  });
+  return scanner;
+}
+
 // Recipes
 
 // Before anything else: a later format may have other keys.
@@ -99,19 +120,16 @@ Recipe read_random(const toml::table& tree, const std::vector<PlacedNumber>& num
 
 Scanner scanner_with(const std::string& preset, const std::vector<std::string>& settings,
                      const std::string& option) {
-  std::string text;
-  for (const std::string& setting : settings) text += toml_line(setting) + '\n';
-  text += fmt::format("scanner.preset = {:?}\n", preset);
-  const toml::table tree = parse_toml(text, option);
-  const TomlSource source(option, tree);
-  const TomlTable table(source, tree, "");
-  table.allow({"scanner"});
-  Scanner scanner = read_single_scanner(table.table("scanner"));
-  validate_at(source, [&] {
-    validate(scanner.camera);
-    validate(scanner.sensor);
+  const std::string of_preset = fmt::format("scanner.preset = {:?}\n", preset);
+  return scanner_from(text_of(settings) + of_preset, option, read_single_scanner);
+}
+
+Scanner scanner_with(const Scanner& scanner, const std::vector<std::string>& settings,
+                     const std::string& option) {
+  return scanner_from(text_of(settings), option, [&](const TomlTable& table) {
+    table.allow(scanner_setting_keys());
+    return with_settings(scanner, table);
   });
-  return scanner;
 }
 
 Recipe read_recipe(std::istream& in, const std::string& name) {

@@ -38,21 +38,14 @@ Bin read_bin(const TomlTable& table) {
 }
 
 Keys scanner_keys() {
-  return all(
-      {{"preset"}, camera_intrinsics_keys(), camera_pose_keys(), keys(sensor_fields), keys(image_fields)});
+  return all({{"preset"}, scanner_setting_keys()});
 }
 
 Scanner read_scanner(const TomlTable& table) {
   std::string name = "paper";
   table.get("preset", name);
-  const Camera preset = with_place(table.file(), table.line("preset"), [&] { return camera_preset(name); });
-  Camera camera = preset;
-  read_camera_intrinsics(table, preset, camera);
-  read_camera_pose(table, camera);
-  Sensor sensor = sensor_preset(name);
-  read_fields(table, sensor_fields, sensor);
-  read_fields(table, image_fields, sensor);
-  return {"", camera, sensor};
+  const Camera camera = with_place(table.file(), table.line("preset"), [&] { return camera_preset(name); });
+  return with_settings({"", camera, sensor_preset(name)}, table);
 }
 
 // A [[scanner]].
@@ -238,6 +231,19 @@ Recipe read_root(const TomlTable& root) {
 }
 
 }  // namespace
+
+Keys scanner_setting_keys() {
+  return all({camera_intrinsics_keys(), camera_pose_keys(), keys(sensor_fields), keys(image_fields)});
+}
+
+Scanner with_settings(Scanner scanner, const TomlTable& table) {
+  const Camera given = scanner.camera;
+  read_camera_intrinsics(table, given, scanner.camera);
+  read_camera_pose(table, scanner.camera);
+  read_fields(table, sensor_fields, scanner.sensor);
+  read_fields(table, image_fields, scanner.sensor);
+  return scanner;
+}
 
 Scanner read_single_scanner(const TomlTable& table) {
   table.allow(scanner_keys());

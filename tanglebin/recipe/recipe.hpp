@@ -149,9 +149,11 @@ void expect_bin_in_view(const Recipe& recipe);
 Recipe read_recipe(std::istream& in, const std::string& name);
 Recipe read_recipe(const std::filesystem::path& file);
 
-/// Reads settings such as "scanner.sigma=0.0002" over a preset, as in a recipe's [scanner]. Throws InputError
-/// naming `option` and the setting.
+/// Reads settings such as "scanner.sigma=0.0002" over a preset, as in a recipe's [scanner], or over another
+/// scanner. Throws InputError naming `option` and the setting.
 Scanner scanner_with(const std::string& preset, const std::vector<std::string>& settings,
+                     const std::string& option);
+Scanner scanner_with(const Scanner& scanner, const std::vector<std::string>& settings,
                      const std::string& option);
 
 /// Writes a valid recipe resolved: every value, presets spelled out. A recipe from read_recipe() reads back

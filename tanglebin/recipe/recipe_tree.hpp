@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 
+#include "tanglebin/files/toml_fields.hpp"
 #include "tanglebin/files/toml_table.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 
@@ -15,6 +16,10 @@ Recipe read_tree(const toml::table& tree, const TomlSource& source);
 /// Gives all kinds of tubes of a tree the keys of its [tube] that they do not have, and removes [tube].
 /// Throws InputError for a [tube] that is no table, or that has an unknown key.
 void inherit_tube(toml::table& tree, TomlSource& source);
+
+/// The keys of a [scanner], but for its preset, and a scanner with those that a table has.
+Keys scanner_setting_keys();
+Scanner with_settings(Scanner scanner, const TomlTable& table);
 
 /// Reads the one [scanner] of a recipe.
 Scanner read_single_scanner(const TomlTable& table);

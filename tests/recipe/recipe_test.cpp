@@ -415,6 +415,8 @@ TEST(Recipe, TheCommandLineSetsWhatARecipesScannerHas) {
   const Scanner scanner = scanner_with("paper", {"scanner.sigma=0.0002", "scanner.edges=drop"}, "--set");
   EXPECT_EQ(scanner.sensor, (Sensor{.sigma = 0.0002, .edges = Edges::drop}));
   EXPECT_EQ(scanner.camera.fx, camera_preset("paper").fx);
+  EXPECT_EQ(scanner_with(scanner, {"scanner.sigma=0.0001"}, "--set").sensor,
+            (Sensor{.sigma = 0.0001, .edges = Edges::drop}));
   const auto said = [](const std::string& setting) {
     return test::complaint([&] { scanner_with("paper", {"scanner.sigma=0.0002", setting}, "--set"); });
   };

@@ -286,6 +286,16 @@ std::optional<DatasetCase> dataset_case(const std::string& name) {
   return DatasetCase{std::move(dataset), {id, std::move(scanner)}};
 }
 
+std::optional<Scanner> scanner_in(const std::string& scene, const std::string& input) {
+  if (const auto path = case_meant(scene, input)) {
+    const Dataset dataset = read_dataset(path->dataset);
+    return scanner_of(*path, recipe_of(dataset, case_named(dataset, path->name)));
+  }
+  const fs::path file = without_slash(scene);
+  if (!is_recipe(file)) return std::nullopt;
+  return scanners(read_recipe(file)).front();
+}
+
 Scene scene_named(const std::string& scene, const std::string& input) {
   const fs::path path = without_slash(scene);
   if (const auto named = case_meant(path, input)) return scene_of_case(*named);

@@ -41,6 +41,10 @@ void add_tube_options(CLI::App& command, SceneOptions& options);
 /// Throws InputError naming what is wrong with it.
 Scene scene_named(const std::string& scene, const std::string& input);
 
+/// The scanner of a dataset's case or a recipe that --scene names, as scene_named() takes it; none of a scene
+/// file, which only says what the camera is.
+std::optional<Scanner> scanner_in(const std::string& scene, const std::string& input);
+
 /// The support of the scene that --scene names; nothing without one.
 Support support_in(const std::optional<std::string>& scene, const std::string& input);
 

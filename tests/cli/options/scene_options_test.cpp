@@ -34,6 +34,7 @@ height = 300
 distance = 2.0
 look_at = [0, 0, 0]
 tilt_deg = 40
+sigma = 0.0005
 [[set]]
 name = "A"
 tubes = [2]
@@ -101,6 +102,22 @@ TEST_F(CaseOfTwoScanners, HasNoCameraUnlessAScannerIsNamed) {
 TEST_F(CaseOfTwoScanners, IsShownAsOneOfThemSeesIt) {
   ASSERT_EQ(run("view dataset/A2/aslant/1 --out aslant.html").status, 0);
   EXPECT_THAT(bytes_of("aslant.html"), HasSubstr("A2/1, aslant"));
+}
+
+TEST_F(CaseOfTwoScanners, IsScannedAgainByTheScannerThatSawIt) {
+  const std::string manifest = bytes_of("dataset/manifest.jsonl");
+  const auto seed = nlohmann::json::parse(manifest.substr(0, manifest.find('\n')))["seed"].get<std::string>();
+  const std::string scan =
+      "scan dataset/A2/tube_configurations/1.txt --with-bin --out again.ply --seed 0x" + seed;
+  const auto cloud_of = [&](const std::string& options) {
+    EXPECT_EQ(run(scan + options).status, 0);
+    return bytes_of("again.ply");
+  };
+  const std::string aslant = " --scene dataset/A2/aslant/1";
+  EXPECT_TRUE(cloud_of(aslant) == bytes_of("dataset/A2/aslant/plys/1.ply"));
+  const std::string ideal = cloud_of(aslant + " --parameter scanner.sigma=0");
+  EXPECT_FALSE(ideal == bytes_of("dataset/A2/aslant/plys/1.ply"));
+  EXPECT_TRUE(ideal == cloud_of(aslant + " --scanner paper")) << "the camera is the scene's";
 }
 
 TEST_F(CaseOfTwoScanners, HasOneBinWhoeverLooks) {
