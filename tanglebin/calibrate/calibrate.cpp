@@ -67,13 +67,23 @@ void claim_directory(const fs::path& directory, const Recipe& recipe, const Cali
   }
 }
 
+// Of tubes that differ from each other within a scene.
+void widen_radii(TubesMadeFor& tubes, const std::vector<TubeSpec>& each_tube) {
+  for (const TubeSpec& tube : each_tube) {
+    tubes.radius_min = std::min(tubes.radius_min, tube.radius);
+    tubes.radius_max = std::max(tubes.radius_max, tube.radius);
+  }
+}
+
 // Each kind of tube in each set, from the least to the greatest that the scenes have.
 std::vector<TubesMadeFor> tubes_of(const CalibrationScenes& scenes) {
   std::map<std::pair<std::string, std::size_t>, TubesMadeFor> by_kind;
   for (const CaseId& id : scenes.scenes) {
-    const std::vector<TubeKind> kinds = known_scene(recipe_of(scenes.dataset, id), id).kinds;
+    const Recipe recipe = recipe_of(scenes.dataset, id);
+    const std::vector<TubeKind> kinds = known_scene(recipe, id).kinds;
     for (std::size_t i = 0; i < kinds.size(); ++i) {
-      const TubesMadeFor its{kinds[i].radius, kinds[i].radius, kinds[i].length(), kinds[i].length()};
+      TubesMadeFor its{kinds[i].radius, kinds[i].radius, kinds[i].length_min, kinds[i].length()};
+      if (kinds.size() == 1) widen_radii(its, set_named(recipe, id.set).each_tube);
       const auto [place, is_new] = by_kind.try_emplace({id.set, i}, its);
       if (is_new) continue;
       TubesMadeFor& all = place->second;

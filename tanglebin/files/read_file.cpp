@@ -56,6 +56,14 @@ std::optional<std::ifstream> open_if_there(const fs::path& file) {
   fail(file, "cannot be opened", errno);
 }
 
+std::ifstream open_input(const fs::path& file) {
+  std::error_code ignored;  // opening reports it
+  if (fs::is_directory(file, ignored)) throw InputError({file.string(), 0, ""}, "is a directory");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail(file, "cannot be opened", errno);
+  return in;
+}
+
 void expect_read(const std::ifstream& in, const fs::path& file) {
   if (in.bad()) fail(file, "cannot be read", errno);
 }

@@ -9,7 +9,7 @@
 #include <string>
 
 // Internal to the library: reads files, and distinguishes missing files from unreadable ones. Nothing here
-// waits for a pipe or reads a device: what is not a regular file is an InputError.
+// but open_input() waits for a pipe or reads a device: what is not a regular file is an InputError.
 namespace tanglebin {
 
 /// The most bytes of a file that is read as a whole and is small by its nature: a recipe, a summary, a
@@ -19,6 +19,10 @@ inline constexpr std::size_t most_bytes_of_small_file = 1U << 24U;
 /// Opens a file; nullopt if it does not exist. Throws InputError with the reason if it exists but cannot be
 /// opened, or is not a regular file.
 std::optional<std::ifstream> open_if_there(const std::filesystem::path& file);
+
+/// Opens what a user names as a command's input: a file, a pipe or a device. Throws InputError for a
+/// directory, which Linux would open, and with the reason if it cannot be opened.
+std::ifstream open_input(const std::filesystem::path& file);
 
 /// Throws InputError with the reason if reading this file's stream failed.
 void expect_read(const std::ifstream& in, const std::filesystem::path& file);

@@ -3,9 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <istream>
-#include <system_error>
 
 namespace tanglebin::cloud_format {
 namespace {}  // namespace
@@ -43,16 +41,6 @@ std::size_t CloudInput::remaining() {
   const std::istream::pos_type end = stream_.tellg();
   stream_.seekg(here);
   return end > here ? static_cast<std::size_t>(end - here) : 0;
-}
-
-std::ifstream open_cloud(const std::filesystem::path& file) {
-  // Linux lets you open a directory for reading.
-  if (std::filesystem::is_directory(file)) throw InputError({file.string(), 0, ""}, "is a directory");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    throw InputError({file.string(), 0, ""}, "cannot be opened: " + std::generic_category().message(errno));
-  }
-  return stream;
 }
 
 }  // namespace tanglebin::cloud_format

@@ -51,7 +51,4 @@ private:
   std::array<char, 1 << 16> buffer_;
 };
 
-/// Opens a file for reading. Throws InputError if it cannot.
-std::ifstream open_cloud(const std::filesystem::path& file);
-
 }  // namespace tanglebin::cloud_format

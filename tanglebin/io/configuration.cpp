@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <boost/pending/disjoint_sets.hpp>
-#include <cerrno>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <fstream>
 #include <istream>
 #include <iterator>
@@ -23,6 +21,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/cloud_input.hpp"
 
 namespace tanglebin {
@@ -270,9 +269,7 @@ std::vector<Tube> read_configuration(std::istream& in, const std::string& name) 
 }
 
 std::vector<Tube> read_configuration(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw InputError({file.string(), 0, ""}, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  std::ifstream in = open_input(file);
   return read_configuration(in, file.string());
 }
 

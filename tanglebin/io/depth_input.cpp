@@ -122,7 +122,7 @@ DepthImage read_depths(std::istream& in, const std::string& name, std::optional<
 
 DepthImage read_depths(const std::filesystem::path& file, std::optional<double> steps_per_metre,
                        double floats_per_metre) {
-  std::ifstream stream = cloud_format::open_cloud(file);
+  std::ifstream stream = open_input(file);
   return read_depths(stream, file.string(), steps_per_metre, floats_per_metre);
 }
 
@@ -134,7 +134,7 @@ PointCloud read_depth_image(std::istream& in, const std::string& name, const Int
 
 PointCloud read_depth_image(const std::filesystem::path& file, const Intrinsics& intrinsics,
                             std::optional<double> steps_per_metre, double floats_per_metre) {
-  std::ifstream stream = cloud_format::open_cloud(file);
+  std::ifstream stream = open_input(file);
   return read_depth_image(stream, file.string(), intrinsics, steps_per_metre, floats_per_metre);
 }
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/cloud_input.hpp"
 #include "tanglebin/io/point_records.hpp"
 
@@ -415,7 +416,7 @@ PointCloud read_pcd(std::istream& in, const std::string& name) {
 }
 
 PointCloud read_pcd(const std::filesystem::path& file) {
-  std::ifstream stream = open_cloud(file);
+  std::ifstream stream = open_input(file);
   return read_pcd(stream, file.string());
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/cloud_input.hpp"
 #include "tanglebin/io/point_records.hpp"
 
@@ -311,7 +312,7 @@ PointCloud read_ply(std::istream& in, const std::string& name) {
 }
 
 PointCloud read_ply(const std::filesystem::path& file) {
-  std::ifstream stream = open_cloud(file);
+  std::ifstream stream = open_input(file);
   return read_ply(stream, file.string());
 }
 

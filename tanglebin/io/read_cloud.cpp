@@ -3,6 +3,7 @@
 #include <istream>
 
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/cloud_input.hpp"
 #include "tanglebin/io/depth_input.hpp"
 #include "tanglebin/io/pcd.hpp"
@@ -25,7 +26,7 @@ PointCloud read_cloud(std::istream& in, const std::string& name) {
 }
 
 PointCloud read_cloud(const std::filesystem::path& file) {
-  std::ifstream stream = cloud_format::open_cloud(file);
+  std::ifstream stream = open_input(file);
   return read_cloud(stream, file.string());
 }
 

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <istream>
 #include <set>
@@ -104,9 +102,7 @@ std::vector<Tube> read_tubes(std::istream& in, const std::string& name) {
 }
 
 std::vector<Tube> read_tubes(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw InputError({file.string(), 0, ""}, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  std::ifstream in = open_input(file);
   return read_tubes(in, file.string());
 }
 

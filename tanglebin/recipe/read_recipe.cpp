@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <istream>
 #include <string>
@@ -46,7 +44,7 @@ Scanner scanner_from(const std::string& text, const std::string& option, const R
   const TomlSource source(option, tree);
   const TomlTable table(source, tree, "");
   table.allow({"scanner"});
-  const Scanner scanner = read(table.table("scanner"));
+  Scanner scanner = read(table.table("scanner"));
   validate_at(source, [&] {
     validate(scanner.camera);
     validate(scanner.sensor);
@@ -144,9 +142,7 @@ Recipe read_recipe(std::istream& in, const std::string& name) {
 }
 
 Recipe read_recipe(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw InputError({file.string(), 0, ""}, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  std::ifstream in = open_input(file);
   return read_recipe(in, file.string());
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/cloud_input.hpp"
 #include "tanglebin/io/depth_input.hpp"
 #include "tanglebin/io/read_cloud.hpp"
@@ -52,7 +53,7 @@ Measurement read_measurement(std::istream& in, const std::string& name, const Sc
 }
 
 Measurement read_measurement(const std::filesystem::path& file, const Scene& scene) {
-  std::ifstream in = cloud_format::open_cloud(file);
+  std::ifstream in = open_input(file);
   return read_measurement(in, file.string(), scene);
 }
 

@@ -19,7 +19,11 @@ using test::complaint;
 using test::TemporaryDirectory;
 using test::write_bytes;
 using testing::AllOf;
+using testing::Ge;
+using testing::Gt;
 using testing::HasSubstr;
+using testing::Le;
+using testing::Lt;
 
 constexpr int few_scenes = 4;
 
@@ -63,6 +67,22 @@ TEST(Calibration, ModelsNothingTwice) {
   const std::string lines = bytes_of(directory / "run/journal.jsonl");
   calibrate(recipe, quick(30), directory / "run");
   EXPECT_EQ(bytes_of(directory / "run/journal.jsonl"), lines);
+}
+
+TEST(Calibration, IsForTubesAsDifferentAsThoseOfItsScenes) {
+  const TemporaryDirectory directory;
+  Recipe recipe = test::finely_seen_recipe();
+  recipe.sets[0].tubes = {3};
+  recipe.random = {{"set[0].tube.radius", RandomNumber{.min = 0.01, .max = 0.013, .per_tube = true}},
+                   {"set[0].tube.length", RandomNumber{.min = 0.4, .max = 0.5, .per_tube = true}}};
+  const std::optional<Calibration> calibration = calibrate(recipe, quick(4), directory / "run");
+  ASSERT_TRUE(calibration);
+  ASSERT_EQ(calibration->profile.made_for->tubes.size(), 1U);
+  const TubesMadeFor& tubes = calibration->profile.made_for->tubes[0];
+  EXPECT_THAT(tubes.radius_min, AllOf(Ge(0.01), Lt(0.011)));
+  EXPECT_THAT(tubes.radius_max, AllOf(Gt(0.012), Le(0.013)));
+  EXPECT_THAT(tubes.length_min, AllOf(Ge(0.4), Lt(0.43)));
+  EXPECT_THAT(tubes.length_max, AllOf(Gt(0.47), Le(0.5)));
 }
 
 TEST(Calibration, SaysWhatTheProfileIsForAndWhatItReached) {

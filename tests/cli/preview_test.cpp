@@ -119,7 +119,7 @@ TEST_F(Preview, SaysWhatIsWrongWithItsInputAndExitsWith2) {
     return run.err;
   };
   EXPECT_THAT(message("absent.txt"), StartsWith("tanglebin: absent.txt: cannot be opened: No such file"));
-  EXPECT_THAT(message("."), StartsWith("tanglebin: .: found a directory"));
+  EXPECT_THAT(message("."), StartsWith("tanglebin: .: is a directory"));
   EXPECT_THAT(message("empty.txt"),
               StartsWith("tanglebin: empty.txt: found an empty file, expected a config"));
   EXPECT_THAT(message("story.txt"),

@@ -40,6 +40,17 @@ TEST(ReadFile, NeitherWaitsForAPipeNorReadsADeviceOrADirectory) {
   EXPECT_THAT(of(""), HasSubstr("found a directory, expected a regular file"));
 }
 
+TEST(ReadFile, AnInputIsNoDirectory) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "file", "tubes");
+  std::string word;
+  open_input(directory / "file") >> word;
+  EXPECT_EQ(word, "tubes");
+  EXPECT_THAT(complaint([&] { open_input(directory.path()); }), HasSubstr(": is a directory"));
+  EXPECT_THAT(complaint([&] { open_input(directory / "none"); }),
+              HasSubstr("none: cannot be opened: No such"));
+}
+
 TEST(ReadFile, OfAFileThatIsTooLargeIsAnErrorThatDoesNotReadItAll) {
   const TemporaryDirectory directory;
   write_bytes(directory / "file", "");

@@ -1,15 +1,13 @@
 #include "tanglebin/cli/options/cloud_or_tubes.hpp"
 
 #include <cctype>
-#include <cerrno>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <system_error>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/read_cloud.hpp"
 #include "tanglebin/io/read_tubes.hpp"
 
@@ -35,15 +33,7 @@ CloudOrTubes read(std::istream& in, const std::string& name) {
 
 CloudOrTubes read_cloud_or_tubes(const std::string& file) {
   if (file == standard_stream) return read(std::cin, "standard input");
-  // Linux lets you open a directory for reading.
-  if (std::filesystem::is_directory(file)) {
-    throw InputError({.file = file, .line = 0, .field = ""}, "a directory", "a configuration or a cloud");
-  }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw InputError({.file = file, .line = 0, .field = ""},
-                     "cannot be opened: " + std::generic_category().message(errno));
-  }
+  std::ifstream in = open_input(file);
   return read(in, file);
 }
 
