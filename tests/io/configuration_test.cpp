@@ -250,7 +250,7 @@ TEST(Configuration, NamesAFileThatIsMissing) {
 
 TEST(Configuration, NamesAFolderThatIsNoFile) {
   EXPECT_THAT(test::complaint([] { read_configuration(std::filesystem::temp_directory_path()); }),
-              HasSubstr("cannot be read"));
+              HasSubstr("is a directory"));
 }
 
 TEST(Configuration, SaysThatAFileIsEmpty) {
