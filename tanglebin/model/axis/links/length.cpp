@@ -50,11 +50,12 @@ std::vector<Chain> chains_of(const std::vector<Fragment>& fragments, const std::
   return chains;
 }
 
-// Those of a length, m, within a few percent. What the image cuts off may be longer.
-std::vector<Chain> as_long_as(double length, std::vector<Chain> chains) {
+// Those as long as the kind is, within a few percent. What the image cuts off may be longer.
+std::vector<Chain> as_long_as(const TubeKind& kind, std::vector<Chain> chains) {
   constexpr double tolerance = 0.035;
   std::erase_if(chains, [&](const Chain& chain) {
-    return chain.is_cut || std::abs(chain.length - length) > tolerance * length;
+    return chain.is_cut || chain.length < (1 - tolerance) * kind.length_min ||
+           chain.length > (1 + tolerance) * kind.length();
   });
   return chains;
 }
@@ -76,34 +77,44 @@ struct Trial {
   double evidence;     ///< log odds
 };
 
-// Tries a length, m. `links` are those of longer chains.
-Trial trial_of(double length, TubeKind kind, const std::vector<Fragment>& fragments, std::vector<Link> links,
+// Tries a kind of a known length. `links` are those of longer chains.
+Trial trial_of(const TubeKind& kind, const std::vector<Fragment>& fragments, std::vector<Link> links,
                const RangeImage& seen, const LinkSettings& settings) {
   constexpr double of_a_chain = 20;  // evidence for its length
-  kind.segments[0].length = kind.length_min = length;
+  const double length = kind.length();
   links = possible_links(length, fragments, std::move(links), settings);
   const ChosenLinks chosen = choose_links(fragments, links, kind, settings, seen);
   const std::vector<Chain> chains =
-      as_long_as(length, chains_of(fragments, links, chosen.links, kind.radius, seen));
+      as_long_as(kind, chains_of(fragments, links, chosen.links, kind.radius, seen));
   return {.length = chains.empty() ? length : std::ranges::max(chains, {}, &Chain::length).length,
           .chains = chains.size(),
           .evidence = chosen.log_odds + of_a_chain * static_cast<double>(chains.size())};
 }
 
+TubeKind of_length(TubeKind kind, double length) {
+  kind.segments[0].length = kind.length_min = length;
+  return kind;
+}
+
 // Of the lengths from that of the longest fragment on, m, the one with the most evidence. At too small a
 // length, true links are missing; at too large a length, chains are seen to end before it.
-Trial likeliest_length(double longest, TubeKind kind, const std::vector<Fragment>& fragments,
+Trial likeliest_length(double longest, double most, const TubeKind& kind,
+                       const std::vector<Fragment>& fragments, const std::vector<Link>& links,
                        const RangeImage& seen, const LinkSettings& settings) {
   constexpr double step = 1.03;
-  constexpr double most = 2.6;
-  kind.segments[0].length = most * longest;
-  const std::vector<Link> links = find_links(fragments, seen, kind, settings);
   Trial likeliest{.length = longest, .chains = 0, .evidence = -std::numeric_limits<double>::infinity()};
-  for (double length = longest; length < most * longest; length *= step) {
-    const Trial trial = trial_of(length, kind, fragments, links, seen, settings);
+  for (double length = longest; length < most; length *= step) {
+    const Trial trial = trial_of(of_length(kind, length), fragments, links, seen, settings);
     if (trial.evidence > likeliest.evidence) likeliest = trial;
   }
   return likeliest;
+}
+
+// For the length that a kind is known to have. A fragment that is longer may be no tube: the rim of a bin.
+double evidence_for(const TubeKind& known, const std::vector<Fragment>& fragments,
+                    const std::vector<Link>& links, const RangeImage& seen, const LinkSettings& settings) {
+  const TubeKind told = known.length_min > 0 ? known : of_length(known, known.length());
+  return trial_of(told, fragments, links, seen, settings).evidence;
 }
 
 }  // namespace
@@ -115,9 +126,12 @@ TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, cons
   const double longest = std::ranges::max_element(fragments, {}, &Fragment::length)->length;
   const bool is_known = kind.length_is_known();
   if (is_known && longest <= length_max(kind.length(), settings)) return kind;
-  const Trial likeliest = likeliest_length(longest, kind, fragments, seen, settings);
+  const double most = 2.6 * longest;
+  const std::vector<Link> links = find_links(fragments, seen, of_length(kind, most), settings);
+  const Trial likeliest = likeliest_length(longest, most, kind, fragments, links, seen, settings);
   const bool is_sure = likeliest.chains >= enough;
   if (is_known && !is_sure) return kind;
+  if (is_known && evidence_for(kind, fragments, links, seen, settings) >= likeliest.evidence) return kind;
   kind.segments[0].length = std::max(likeliest.length, longest);
   if (!is_known && is_sure) kind.length_min = kind.segments[0].length;
   return kind;

@@ -52,6 +52,25 @@ TEST(WithLength, IsNotTheOneGivenIfThreeTubesAreLonger) {
   EXPECT_EQ(modelled_with({longer[0], longer[1]}, 0, 0.22).kinds[0].length, 0.22);
 }
 
+// Three pairs in line, which look like one tube each, with their ends under another; six that lie alone; and
+// something longer, such as the rim of a bin.
+TEST(WithLength, IsTheOneGivenIfOnlySomethingElseIsLonger) {
+  std::vector<Tube> tubes;
+  const auto add = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    tubes.push_back(test::chain(static_cast<int>(tubes.size()) + 1, 0.0125, {from, to}));
+  };
+  for (const double y : {-0.1, 0.0, 0.1}) {
+    add({-0.214, y, 0.0125}, {-0.014, y, 0.0125});
+    add({0.014, y, 0.0125}, {0.214, y, 0.0125});
+    add({-0.25, y - 0.05, 0.0125}, {-0.05, y - 0.05, 0.0125});
+    add({0.05, y - 0.05, 0.0125}, {0.25, y - 0.05, 0.0125});
+  }
+  add({0, -0.11, 0.0375}, {0, 0.11, 0.0375});
+  add({-0.18, 0.165, 0.0125}, {0.18, 0.165, 0.0125});
+  EXPECT_EQ(modelled_with(tubes, 0.2, 0.2).kinds[0].length, 0.2);
+  EXPECT_EQ(modelled_with(tubes, 0.19, 0.22).kinds[0].length, 0.22);
+}
+
 // Each is in two pieces, on either side of one that lies across.
 TEST(WithLength, IsThatOfTubesLongerThanAnyPieceThatIsSeen) {
   std::vector<Tube> tubes = {test::chain(1, 0.0125, {{-0.06, -0.1, 0.0375}, {0.06, 0.1, 0.0375}})};
