@@ -161,21 +161,22 @@ void take_camera(const SceneCamera& camera, const ScanArguments& arguments, Scan
 
 // The scanner of a dataset's case or a recipe is the scene's, unless another one is asked for.
 std::optional<Scanner> own_scanner(const ScanArguments& arguments) {
-  if (!arguments.scene || arguments.scanner) return std::nullopt;
+  if (arguments.scanner) return std::nullopt;
   const std::optional<Scanner> own = scanner_in(*arguments.scene, arguments.configuration);
   return own ? std::optional(scanner_with(*own, arguments.parameters, "--parameter")) : std::nullopt;
 }
 
 Setting setting_of(const ScanArguments& arguments) {
-  const std::optional<Scanner> own = own_scanner(arguments);
   Setting setting{
-      .scanner =
-          own ? *own : scanner_with(arguments.scanner.value_or("paper"), arguments.parameters, "--parameter"),
+      .scanner = scanner_with(arguments.scanner.value_or("paper"), arguments.parameters, "--parameter"),
       .support = {.bin = bin_preset(arguments.bin)}};
   if (arguments.scene) {
     const Scene scene = scene_named(*arguments.scene, arguments.configuration);
-    if (!own) take_camera(scene.camera, arguments, setting.scanner);
     setting.support = scene.support.value_or(Support{.shape = Support::Shape::nothing});
+    if (const auto own = own_scanner(arguments))
+      setting.scanner = *own;
+    else
+      take_camera(scene.camera, arguments, setting.scanner);
   }
   if (setting.support.shape == Support::Shape::bin) {
     Camera camera = setting.scanner.camera;

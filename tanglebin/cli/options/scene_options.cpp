@@ -60,6 +60,11 @@ CaseId case_named(const Dataset& dataset, const std::string& name) {
   return *found;
 }
 
+Recipe recipe_of_case(const CasePath& path) {
+  const Dataset dataset = read_dataset(path.dataset);
+  return recipe_of(dataset, case_named(dataset, path.name));
+}
+
 fs::path without_slash(const std::string& name) {
   return fs::path(name).has_filename() ? fs::path(name) : fs::path(name).parent_path();
 }
@@ -287,13 +292,10 @@ std::optional<DatasetCase> dataset_case(const std::string& name) {
 }
 
 std::optional<Scanner> scanner_in(const std::string& scene, const std::string& input) {
-  if (const auto path = case_meant(scene, input)) {
-    const Dataset dataset = read_dataset(path->dataset);
-    return scanner_of(*path, recipe_of(dataset, case_named(dataset, path->name)));
-  }
-  const fs::path file = without_slash(scene);
-  if (!is_recipe(file)) return std::nullopt;
-  return scanners(read_recipe(file)).front();
+  const fs::path path = without_slash(scene);
+  if (const auto named = case_meant(path, input)) return scanner_of(*named, recipe_of_case(*named));
+  if (!is_recipe(path)) return std::nullopt;
+  return scanners(read_recipe(path)).front();
 }
 
 Scene scene_named(const std::string& scene, const std::string& input) {
@@ -307,10 +309,7 @@ Scene scene_named(const std::string& scene, const std::string& input) {
 Support support_in(const std::optional<std::string>& scene, const std::string& input) {
   constexpr auto nothing = Support::Shape::nothing;
   if (!scene) return {.shape = nothing};
-  if (const auto named = case_meant(without_slash(*scene), input)) {
-    const Dataset dataset = read_dataset(named->dataset);
-    return {.bin = recipe_of(dataset, case_named(dataset, named->name)).bin};
-  }
+  if (const auto named = case_meant(without_slash(*scene), input)) return {.bin = recipe_of_case(*named).bin};
   return scene_of_file(*scene, input).support.value_or(Support{.shape = nothing});
 }
 
