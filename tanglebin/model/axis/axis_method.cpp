@@ -9,9 +9,9 @@
 
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/geometry/labels.hpp"
+#include "tanglebin/model/axis/candidates.hpp"
 #include "tanglebin/model/axis/fragments/kinds.hpp"
 #include "tanglebin/model/axis/fragments/ramps.hpp"
-#include "tanglebin/model/axis/fragments/roundness.hpp"
 #include "tanglebin/model/axis/links/beyond_ends.hpp"
 #include "tanglebin/model/axis/links/choose_links.hpp"
 #include "tanglebin/model/axis/links/join_odds.hpp"
@@ -24,15 +24,6 @@ namespace tanglebin {
 namespace {
 
 using Eigen::Vector3f;
-
-// Gives a tube the points of its fragments.
-void claim_points(std::vector<std::int32_t>& labels, const Tube& tube,
-                  const std::vector<std::size_t>& fragments, const AxisSteps& steps,
-                  const std::vector<std::size_t>& filtered) {
-  for (const std::size_t fragment : fragments) {
-    for (const std::size_t point : steps.fragments[fragment].points) labels[filtered[point]] = tube.id;
-  }
-}
 
 // The number of items that a step produced, over all kinds.
 template <typename Count>
@@ -90,41 +81,6 @@ AxisSettings for_sharp_edges(AxisSettings settings) {
   return settings;
 }
 
-// In a known bin there are tubes. Elsewhere there may also be the rim of a bin, or a pipe of quite another
-// radius; and without a support walls, so that what shows too little to tell is no tube there. A ball is none
-// either: an upright tube shows one if its ends are round.
-bool is_tube(const Tube& tube, const std::optional<double>& roundness, const Support& support) {
-  constexpr double least = 0.6;
-  constexpr double most = 1.6;
-  if (tube.flat_ends && total_length(tube) <= tube.radius) return false;
-  if (support.shape == Support::Shape::bin) return true;
-  if (!roundness) return support.shape == Support::Shape::plane;
-  return *roundness >= least && *roundness <= most;
-}
-
-// Next to nothing is seen of it; or no more than of a ball, and the rest should have been seen.
-bool is_false_speck(const AxisSteps& steps, const std::vector<std::size_t>& members, const TubeKind& kind,
-                    const LinkSettings& settings) {
-  std::size_t points = 0;
-  for (const std::size_t member : members) points += steps.fragments[member].points.size();
-  // Points of a piece that is so long, in radii.
-  constexpr double nothing = 0.5;
-  constexpr double ball = 2;
-  const double seen = static_cast<double>(points) / points_on_a_radius(steps.fragments, kind.radius);
-  if (seen < nothing) return true;
-  if (seen > ball) return false;
-  double length = 0;
-  double hidden = 0;
-  for (const std::size_t member : members) {
-    length += steps.fragments[member].length;
-    for (const FragmentEnd& end : steps.fragments[member].ends) hidden += end.hidden;
-  }
-  for (const std::size_t i : steps.chosen) {
-    if (std::ranges::binary_search(members, steps.links[i].fragment)) length += steps.links[i].gap;
-  }
-  return unseen_length(length, hidden, kind, settings) > 0;
-}
-
 /// The points that the filter kept, and what they vote for.
 struct Voting {
   std::vector<std::size_t> filtered;  ///< the points' indices in the cloud
@@ -141,12 +97,38 @@ std::size_t number_of_votes(const Voting& voting) {
   return sum;
 }
 
+// Of all points of the cloud; NaN where nothing was voted for.
+std::vector<Vector3f> normals_of(const Voting& voting, std::size_t points) {
+  std::vector<Vector3f> normals(points, Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+  for (const AxisVotes& votes : voting.of_kinds) {
+    for (std::size_t i = 0; i < voting.filtered.size(); ++i) {
+      if (votes.normals[i].allFinite()) normals[voting.filtered[i]] = votes.normals[i];
+    }
+  }
+  return normals;
+}
+
 /// What is modelled.
 struct Scan {
   const PointCloud& cloud;
   const Cropped& cropped;
   const KnownScene& known;
 };
+
+// The tubes, with their fragments and the points of these.
+void add_tubes(Model& model, AxisSteps& steps, std::vector<Candidate> candidates,
+               std::vector<std::int32_t>& claimed) {
+  steps.tubes.clear();
+  for (Candidate& candidate : candidates) {
+    candidate.tube.id = static_cast<int>(model.tubes.size()) + 1;
+    for (const std::size_t fragment : candidate.fragments) {
+      for (const std::size_t point : steps.fragments[fragment].points)
+        claimed[model.filtered[point]] = candidate.tube.id;
+    }
+    model.tubes.push_back(std::move(candidate.tube));
+    steps.tubes.push_back(std::move(candidate.fragments));
+  }
+}
 
 // The steps from votes to labels. The grid of voxels that the votes are sorted into is moved by `shift`.
 AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& scan,
@@ -178,28 +160,22 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   });
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");
 
-  std::vector<std::int32_t> claimed(scan.cloud.points.size(), null_label);
-  for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
-    std::erase_if(steps.tubes, [&](const std::vector<std::size_t>& fragments) {
-      if (is_false_speck(steps, fragments, kind, settings.link)) return true;
-      Tube tube =
-          fit_tube(steps.fragments, fragments, steps.links, steps.chosen, voting.points, kind, settings.fit);
-      if (!is_tube(tube,
-                   roundness(tube, steps.fragments, fragments, voting.points, steps.votes, known.camera),
-                   known.support))
-        return true;
-      tube.id = static_cast<int>(model.tubes.size()) + 1;
-      claim_points(claimed, tube, fragments, steps, model.filtered);
-      model.tubes.push_back(std::move(tube));
-      return false;
-    });
-    const auto index = static_cast<std::size_t>(&kind - known.kinds.data());
-    std::ranges::move(evidence_of(steps, index, length_max(steps.length, settings.link)),
-                      std::back_inserter(model.evidence));
+  std::vector<std::vector<Candidate>> candidates;
+  for_each_kind([&](const AxisSteps& steps, const TubeKind& kind) {
+    candidates.push_back(fit_candidates(steps, voting.points, kind, known.camera, settings));
   });
+  drop_what_is_no_tube(candidates, known.support);
+  std::vector<std::int32_t> claimed(scan.cloud.points.size(), null_label);
+  for (std::size_t kind = 0; kind < known.kinds.size(); ++kind) {
+    AxisSteps& steps = result.kinds[kind];
+    add_tubes(model, steps, std::move(candidates[kind]), claimed);
+    std::ranges::move(evidence_of(steps, kind, length_max(steps.length, settings.link)),
+                      std::back_inserter(model.evidence));
+  }
   clock.end_step("fit", model.tubes.size(), "tubes");
 
-  model.labels = label_points(scan.cloud, scan.cropped, claimed, model.tubes, settings.label);
+  model.labels = label_points(scan.cloud, scan.cropped, claimed, model.tubes, settings.label,
+                              {known.support, normals_of(voting, scan.cloud.points.size())});
   clock.end_step("label",
                  static_cast<std::size_t>(std::ranges::count_if(
                      model.labels, [](std::int32_t label) { return label > bin_label; })),

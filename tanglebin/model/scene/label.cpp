@@ -62,11 +62,27 @@ double surface_distance_of(const Claim& claim, const Vector3d& point) {
                         : distance_from_cut(claim.capsule, a, -along, point);
 }
 
+// At a point on a table that a tube lies on, within the reach of a label, the cosine is -0.5 or less.
+bool faces(const Claim& claim, const Vector3d& point, const Vector3d& normal) {
+  const auto& [a, b, radius, flat_at_a, flat_at_b] = claim.capsule;
+  const Vector3d outwards = point - (a + nearest_on_axis(claim.capsule, point) * (b - a));
+  constexpr double cosine_min = -0.35;
+  return outwards.dot(normal) < cosine_min * outwards.norm();
+}
+
+double support_distance(const std::vector<Eigen::AlignedBox3d>& support, const Vector3d& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Eigen::AlignedBox3d& part : support) nearest = std::min(nearest, part.exteriorDistance(point));
+  return nearest;
+}
+
 }  // namespace
 
 std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::vector<std::size_t>& points,
-                                           const std::vector<Tube>& tubes, const LabelSettings& settings) {
+                                           const std::vector<Tube>& tubes, const LabelSettings& settings,
+                                           const OtherSurfaces& others) {
   const std::vector<Claim> claims = claims_of(tubes, settings.distance_max);
+  const std::vector<Eigen::AlignedBox3d> support = solid_parts(others.support);
   const BoxGrid grid = grid_of(claims);
   std::vector<std::int32_t> labels(points.size(), null_label);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -77,16 +93,19 @@ std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::v
       if (!claim.box.contains(point)) continue;
       const double distance = surface_distance_of(claim, point);
       if (distance >= std::min(nearest, claim.distance_max)) continue;
+      if (!others.normals.empty() && faces(claim, point, others.normals[points[i]].cast<double>())) continue;
       nearest = distance;
       labels[i] = claim.label;
     }
+    if (labels[i] != null_label && support_distance(support, point) < nearest) labels[i] = null_label;
   }
   return labels;
 }
 
 std::vector<std::int32_t> label_points(const PointCloud& cloud, const Cropped& cropped,
                                        const std::vector<std::int32_t>& claimed,
-                                       const std::vector<Tube>& tubes, const LabelSettings& settings) {
+                                       const std::vector<Tube>& tubes, const LabelSettings& settings,
+                                       const OtherSurfaces& others) {
   std::vector<std::int32_t> labels(cloud.points.size(), null_label);
   for (const std::size_t point : cropped.support) labels[point] = bin_label;
   std::vector<std::size_t> rest;
@@ -94,7 +113,7 @@ std::vector<std::int32_t> label_points(const PointCloud& cloud, const Cropped& c
     labels[point] = claimed[point];
     if (claimed[point] == null_label) rest.push_back(point);
   }
-  const std::vector<std::int32_t> nearest = label_by_nearest(cloud, rest, tubes, settings);
+  const std::vector<std::int32_t> nearest = label_by_nearest(cloud, rest, tubes, settings, others);
   for (std::size_t i = 0; i < rest.size(); ++i) labels[rest[i]] = nearest[i];
   for (const std::size_t point : cropped.near) {
     if (labels[point] == null_label) labels[point] = bin_label;

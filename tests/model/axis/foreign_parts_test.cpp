@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 #include "tests/model/scene/ray_cast.hpp"
@@ -60,6 +61,41 @@ TEST(ForeignParts, StayUnexplainedWhereTheSupportIsNotKnown) {
   const PointCloud cloud =
       test::seen_by(test::near_camera(), a_tube_among_foreign_parts(test::wavy_floor(0, 1)));
   expect_only_the_tube(cloud, model_tubes(cloud, scene_on(Support::Shape::nothing)));
+}
+
+// The paper's camera, tilted about the middle of the floor.
+Camera paper_camera(double tilt_deg) {
+  Camera camera = camera_preset("paper");
+  camera.pose = Eigen::AngleAxisd(tilt_deg * degree, Eigen::Vector3d::UnitX()) * camera.pose;
+  return camera;
+}
+
+// Of the points that are labelled as on tubes: how many are of the bin.
+double false_share(const PointCloud& cloud, const Model& model) {
+  double on_tubes = 0;
+  double of_bin = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (model.labels[i] <= 0) continue;
+    ++on_tubes;
+    if (cloud.labels[i] == bin_label) ++of_bin;
+  }
+  return of_bin / on_tubes;
+}
+
+// Two tubes in a bin of which nothing is known, from aslant: two sides of each wall are seen, about as wide
+// as a tube, and all of the floor.
+TEST(ForeignParts, OfABinThatIsNotKnownAreNoTubes) {
+  const std::vector<Tube> tubes = {test::straight_tube(1, -0.05), test::straight_tube(2, 0.08)};
+  for (const double tilt : {20.0, 30.0}) {
+    const Camera camera = paper_camera(tilt);
+    const PointCloud cloud =
+        cloud_from_scan(scan(tubes, bin_preset("paper"), camera), CloudOf::tubes_and_bin, 2);
+    const KnownScene known{.support = {.shape = Support::Shape::nothing}, .camera = camera};
+    const Model model = model_tubes(cloud, known);
+    ASSERT_EQ(model.tubes.size(), 2U) << tilt << " degrees";
+    for (const TubeEvidence& tube : model.evidence) EXPECT_GT(tube.confidence, 0.9) << tilt << " degrees";
+    EXPECT_LT(false_share(cloud, model), 0.01) << tilt << " degrees";
+  }
 }
 
 // Waves of 3 mm, like a sagging sheet.

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tanglebin/base/random.hpp"
 #include "tests/model/scene/scanned.hpp"
 
@@ -80,6 +82,25 @@ TEST(LabelByNearest, TakesTheBendsOfATubeWithFlatEndsAsRound) {
   tube.flat_ends = true;
   const float out = 0.7F * static_cast<float>(test::radius);
   EXPECT_THAT(label_by_nearest(cloud_of({{out, 0, out}}), {0}, {tube}, {}), ElementsAre(1));
+}
+
+// Beside a tube that lies on it, a table is nearer to the tube than a radius.
+TEST(LabelByNearest, LeavesTheTableBesideATube) {
+  const Tube tube = test::straight_tube(1, 0);
+  const PointCloud cloud = cloud_of({{0, 0.014F, 0.001F}, {0, 0.011F, 0.02F}});
+  EXPECT_THAT(label_by_nearest(cloud, {0, 1}, {tube}, {}), ElementsAre(1, 1));
+  const OtherSurfaces floor{.support = {.shape = Support::Shape::plane}};
+  EXPECT_THAT(label_by_nearest(cloud, {0, 1}, {tube}, {}, floor), ElementsAre(null_label, 1));
+  const Eigen::Vector3f up(0, 0, 1);
+  const OtherSurfaces level{.normals = {up, up}};
+  EXPECT_THAT(label_by_nearest(cloud, {0, 1}, {tube}, {}, level), ElementsAre(null_label, 1));
+}
+
+TEST(LabelByNearest, TakesASurfaceThatIsNotKnownForTheTubes) {
+  const Eigen::Vector3f unknown = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  EXPECT_THAT(label_by_nearest(cloud_of({{0, 0.014F, 0.001F}}), {0}, {test::straight_tube(1, 0)}, {},
+                               {.normals = {unknown}}),
+              ElementsAre(1));
 }
 
 TEST(LabelByNearest, WithoutTubesOrPointsIsNullOrNothing) {

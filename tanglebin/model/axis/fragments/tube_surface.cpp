@@ -1,0 +1,185 @@
+#include "tanglebin/model/axis/fragments/tube_surface.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "tanglebin/base/median.hpp"
+#include "tanglebin/geometry/capsule.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The cylinder of a tube that a point is nearest to, without its ends.
+struct Nearest {
+  Vector3d along;  // unit
+  Vector3d way;    // m, from the axis to the point
+};
+
+// The cylinder's direction is that in which it does not turn back against `forward`.
+std::optional<Nearest> nearest_cylinder(const std::vector<Capsule>& capsules, const Vector3d& forward,
+                                        const Vector3d& point) {
+  std::optional<Nearest> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Capsule& capsule : capsules) {
+    const double t = nearest_on_axis(capsule, point);
+    const Vector3d way = point - (capsule.a + t * (capsule.b - capsule.a));
+    if (way.norm() >= least) continue;
+    least = way.norm();
+    nearest.reset();
+    if (!(t > 0 && t < 1)) continue;
+    const Vector3d along = (capsule.b - capsule.a).normalized();
+    nearest = Nearest{along.dot(forward) < 0 ? Vector3d(-along) : along, way};
+  }
+  return nearest;
+}
+
+/// Sums of two angles, rad.
+struct Angles {
+  double count = 0;
+  double first = 0, second = 0, squares = 0, products = 0;
+
+  void add(double x, double y) {
+    ++count;
+    first += x;
+    second += y;
+    squares += x * x;
+    products += x * y;
+  }
+};
+
+/// Where a point is around the axis.
+struct Place {
+  double angle;     // rad, from the direction of the sensor
+  double distance;  // m, from the axis
+  double facing;    // cosine between the normal and the line of sight
+};
+
+/// Of the points of a fragment.
+struct Measured {
+  Angles angles;  // around the axis, from the direction of the sensor: of points and normals
+  std::vector<Place> places;
+};
+
+Measured measure(const Fragment& fragment, std::size_t stride, const std::vector<Capsule>& pieces,
+                 const std::vector<Eigen::Vector3f>& points, const AxisVotes& votes, const Vector3d& sensor) {
+  constexpr double off_max = 0.3;  // radii; what is farther from the side may be on a face
+  const double radius = pieces.front().radius;
+  const Capsule& longest = *std::ranges::max_element(
+      pieces, {}, [](const Capsule& piece) { return (piece.b - piece.a).squaredNorm(); });
+  Measured measured;
+  for (std::size_t i = 0; i < fragment.points.size(); i += stride) {
+    const Vector3d point = points[fragment.points[i]].cast<double>();
+    const std::optional<Nearest> nearest = nearest_cylinder(pieces, longest.b - longest.a, point);
+    if (!nearest || std::abs(nearest->way.norm() / radius - 1) > off_max) continue;
+    const Vector3d side = nearest->along.cross(sensor - point).normalized();
+    const Vector3d front = side.cross(nearest->along);
+    const Vector3d normal = votes.normals[fragment.points[i]].cast<double>();
+    const double angle = std::atan2(nearest->way.dot(side), nearest->way.dot(front));
+    measured.angles.add(angle, std::atan2(normal.dot(side), normal.dot(front)));
+    measured.places.push_back({angle, nearest->way.norm(), normal.dot((sensor - point).normalized())});
+  }
+  return measured;
+}
+
+// With fewer points, nothing is known.
+constexpr std::size_t points_min = 20;
+
+double median_of(const std::vector<Place>& places, double Place::*value) {
+  std::vector<double> values;
+  values.reserve(places.size());
+  for (const Place& place : places) values.push_back(place.*value);
+  return median(std::move(values));
+}
+
+// The median difference from the median.
+double scatter_of(const std::vector<Place>& places) {
+  const double middle = median_of(places, &Place::distance);
+  std::vector<double> differences;
+  differences.reserve(places.size());
+  for (const Place& place : places) differences.push_back(std::abs(place.distance - middle));
+  return median(std::move(differences));
+}
+
+// Without those farther than three standard deviations from the median: of neighbours.
+std::vector<Place> without_outliers(const std::vector<Place>& places, double scatter) {
+  constexpr double deviations = 3 * 1.4826;
+  const double middle = median_of(places, &Place::distance);
+  std::vector<Place> rest;
+  for (const Place& place : places) {
+    if (std::abs(place.distance - middle) <= deviations * scatter) rest.push_back(place);
+  }
+  return rest;
+}
+
+// The sum of squares that is left of the distances after a least squares fit of so many terms of
+// a + b cos φ + c sin φ + d cos 2φ + e sin 2φ.
+double left_after(const std::vector<Place>& places, Eigen::Index terms) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(places.size()), 5);
+  Eigen::VectorXd distances(rows.rows());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const Place& place = places[static_cast<std::size_t>(i)];
+    const double angle = place.angle;
+    rows.row(i) << 1, std::cos(angle), std::sin(angle), std::cos(2 * angle), std::sin(2 * angle);
+    distances(i) = place.distance;
+  }
+  const Eigen::MatrixXd used = rows.leftCols(terms);
+  const Eigen::VectorXd fitted = used.householderQr().solve(distances);
+  return (distances - used * fitted).squaredNorm();
+}
+
+double ovality_of(const std::vector<Place>& places, double scatter, double radius) {
+  constexpr double exact = 0.01;  // radii
+  const std::vector<Place> inliers = without_outliers(places, scatter);
+  const double left = left_after(inliers, 3);
+  if (left < exact * exact * radius * radius * static_cast<double>(inliers.size())) return 0;
+  return 1 - left_after(inliers, 5) / left;
+}
+
+// The slope of the second angle over the first, within the fragments: these may be on different surfaces.
+std::optional<double> slope_of(const std::vector<Angles>& of_fragments) {
+  double count = 0;
+  double variance = 0;
+  double covariance = 0;
+  for (const Angles& angles : of_fragments) {
+    if (angles.count == 0) continue;
+    count += angles.count;
+    variance += angles.squares - angles.first * angles.first / angles.count;
+    covariance += angles.products - angles.first * angles.second / angles.count;
+  }
+  constexpr double arc_min = 0.2;  // rad, standard deviation
+  if (variance < arc_min * arc_min * count) return std::nullopt;
+  return covariance / variance;
+}
+
+}  // namespace
+
+TubeSurface surface_of(const Tube& tube, const std::vector<Fragment>& fragments,
+                       const std::vector<std::size_t>& members, const std::vector<Eigen::Vector3f>& points,
+                       const AxisVotes& votes, const Camera& camera) {
+  std::size_t all = 0;
+  for (const std::size_t member : members) all += fragments[member].points.size();
+  constexpr std::size_t looked_at = 400;
+  const std::size_t stride = all / looked_at + 1;
+  const std::vector<Capsule> pieces = capsules(tube);
+  if (pieces.empty()) return {};
+  std::vector<Angles> angles;
+  std::vector<Place> places;
+  for (const std::size_t member : members) {
+    const Measured measured =
+        measure(fragments[member], stride, pieces, points, votes, camera.pose.translation());
+    angles.push_back(measured.angles);
+    places.insert(places.end(), measured.places.begin(), measured.places.end());
+  }
+  if (places.size() < points_min) return {};
+  const double scatter = scatter_of(places);
+  return {slope_of(angles), scatter, ovality_of(places, scatter, tube.radius),
+          median_of(places, &Place::facing)};
+}
+
+}  // namespace tanglebin
