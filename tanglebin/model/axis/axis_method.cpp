@@ -97,15 +97,17 @@ std::size_t number_of_votes(const Voting& voting) {
   return sum;
 }
 
-// Of all points of the cloud; NaN where nothing was voted for.
-std::vector<Vector3f> normals_of(const Voting& voting, std::size_t points) {
+// In a known bin, there is nothing but the bin. Elsewhere there may be anything, so that normals have to
+// tell.
+OtherSurfaces other_surfaces(const Voting& voting, const Support& support, std::size_t points) {
+  if (support.shape == Support::Shape::bin) return {support};
   std::vector<Vector3f> normals(points, Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
   for (const AxisVotes& votes : voting.of_kinds) {
     for (std::size_t i = 0; i < voting.filtered.size(); ++i) {
       if (votes.normals[i].allFinite()) normals[voting.filtered[i]] = votes.normals[i];
     }
   }
-  return normals;
+  return {support, std::move(normals)};
 }
 
 /// What is modelled.
@@ -175,7 +177,7 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   clock.end_step("fit", model.tubes.size(), "tubes");
 
   model.labels = label_points(scan.cloud, scan.cropped, claimed, model.tubes, settings.label,
-                              {known.support, normals_of(voting, scan.cloud.points.size())});
+                              other_surfaces(voting, known.support, scan.cloud.points.size()));
   clock.end_step("label",
                  static_cast<std::size_t>(std::ranges::count_if(
                      model.labels, [](std::int32_t label) { return label > bin_label; })),

@@ -55,10 +55,13 @@ public:
     return foot;
   }
 
-  // Whether a point is beyond an end of the tube: on its cap.
-  bool is_beyond_end(const Foot& foot) const {
+  // Whether a point is on the cap of an end, or on its face, which may be a little inside of the modelled
+  // one.
+  bool is_on_end(const Foot& foot) const {
+    constexpr double face = 0.3;  // radii
     const auto& [from, to, order] = tube_.edges[foot.edge];
-    return (foot.t <= 0 && degrees_[from] == 1) || (foot.t >= 1 && degrees_[to] == 1);
+    const double margin = tube_.flat_ends ? face * tube_.radius / length_of(foot.edge) : 0;
+    return (foot.t <= margin && degrees_[from] == 1) || (foot.t >= 1 - margin && degrees_[to] == 1);
   }
 
   Vector3d direction_at(const Foot& foot) const { return way_of(foot.edge).normalized(); }
@@ -182,7 +185,7 @@ void weigh(TubeEvidence& evidence, const Tube& tube, const std::vector<Vector3d>
     const Foot foot = line.foot_of(point);
     line.see(foot);
     const double distance = foot.way.norm();
-    if (line.is_beyond_end(foot) || distance == 0) continue;
+    if (line.is_on_end(foot) || distance == 0) continue;
     const double residual = distance - tube.radius;
     const Vector3d outwards = foot.way / distance;
     const Vector3d to_sensor = (camera - point).normalized();
@@ -200,17 +203,24 @@ void weigh(TubeEvidence& evidence, const Tube& tube, const std::vector<Vector3d>
   evidence.confidence = confidence(features_of(evidence, kind));
 }
 
+// Enough to meet each part of a centre line that is seen.
+std::size_t points_wanted(const Tube& tube) {
+  constexpr double least = 300;
+  constexpr double for_each_part = 6;
+  return static_cast<std::size_t>(std::max(least, for_each_part * total_length(tube) / tube.radius));
+}
+
 // Of each tube, evenly chosen points with its label. Counts all of them.
 std::vector<std::vector<Vector3d>> some_points(Model& model, const PointCloud& cloud) {
-  constexpr std::size_t wanted = 300;
   std::vector<std::size_t> left(model.tubes.size() + 1);
   for (const std::int32_t label : model.labels) {
     if (label > 0) ++left[static_cast<std::size_t>(label)];
   }
-  std::vector<std::size_t> strides;
-  strides.reserve(left.size());
-  for (const std::size_t points : left) strides.push_back(points / wanted + 1);
-  for (std::size_t tube = 0; tube < model.tubes.size(); ++tube) model.evidence[tube].points = left[tube + 1];
+  std::vector<std::size_t> strides(left.size());
+  for (std::size_t tube = 0; tube < model.tubes.size(); ++tube) {
+    strides[tube + 1] = left[tube + 1] / points_wanted(model.tubes[tube]) + 1;
+    model.evidence[tube].points = left[tube + 1];
+  }
   std::vector<std::vector<Vector3d>> points(model.tubes.size());
   for (std::size_t i = 0; i < model.labels.size(); ++i) {
     if (model.labels[i] <= 0) continue;

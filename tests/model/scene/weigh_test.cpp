@@ -64,6 +64,23 @@ TEST_F(Evidence, CoversWhatWasSeen) {
   EXPECT_EQ(weighed(test::cloud_of({})).visible_length, 0);
 }
 
+// A cable of four metres has more parts than any fixed number of points can show.
+TEST_F(Evidence, CoversAllOfALongThinTube) {
+  tube_ = test::chain(1, 0.0025, {{-2, 0, 0.0025}, {2, 0, 0.0025}});
+  scene_.kinds[0].radius = tube_.radius;
+  EXPECT_NEAR(weighed(upper_half(tube_, tube_.radius, 0, 4)).coverage(), 1, 0.03);
+}
+
+// The model of a tube that is cut flat may be a little too long. Then its face lies inside of the model.
+TEST_F(Evidence, ResidualIsNotThatOfAFace) {
+  PointCloud cloud = upper_half(tube_, test::radius, 0.002, 0.498);
+  for (double across = 0; across < test::radius; across += 0.0001)
+    cloud.points.emplace_back(-0.248F, 0.0F, static_cast<float>(test::radius + across));
+  EXPECT_GT(weighed(cloud).residual, 1e-4);
+  tube_.flat_ends = true;
+  EXPECT_NEAR(weighed(cloud).residual, 0, 1e-6);
+}
+
 TEST_F(Evidence, SaysWhetherTheLengthFits) {
   const PointCloud cloud = upper_half(tube_, test::radius, 0, 0.5);
   const auto fit = [&](double length_min, double length_max) {
