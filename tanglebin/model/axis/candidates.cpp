@@ -69,7 +69,7 @@ double usual_scatter(const std::vector<std::vector<Candidate>>& of_kinds) {
 }
 
 bool scatters_as_usual(const Candidate& candidate, double usual) {
-  constexpr double exact = 0.01;  // radii
+  constexpr double exact = 0.015;  // radii
   constexpr double factor_max = 2;
   return candidate.surface.scatter <= std::max(factor_max * usual, exact * candidate.tube.radius);
 }

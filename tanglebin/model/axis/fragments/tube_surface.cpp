@@ -57,7 +57,7 @@ struct Angles {
 struct Place {
   double angle;     // rad, from the direction of the sensor
   double distance;  // m, from the axis
-  double facing;    // cosine between the normal and the line of sight
+  double facing;    // cosine between the normal and the direction of the sensor
 };
 
 /// Of the points of a fragment.
@@ -82,7 +82,7 @@ Measured measure(const Fragment& fragment, std::size_t stride, const std::vector
     const Vector3d normal = votes.normals[fragment.points[i]].cast<double>();
     const double angle = std::atan2(nearest->way.dot(side), nearest->way.dot(front));
     measured.angles.add(angle, std::atan2(normal.dot(side), normal.dot(front)));
-    measured.places.push_back({angle, nearest->way.norm(), normal.dot((sensor - point).normalized())});
+    measured.places.push_back({angle, nearest->way.norm(), normal.dot(front)});
   }
   return measured;
 }

@@ -26,7 +26,7 @@ struct TubeSurface {
   /// of any radius, wherever its axis; more on an oval, a plane, or two planes that meet. 0 if their standard
   /// deviation is less than 0.01 radii.
   double ovality = 0;
-  /// The cosine between the normals and the lines of sight, in the median.
+  /// The cosine between the normals and the direction from the axis to the sensor, in the median.
   double facing = 1;
 };
 
