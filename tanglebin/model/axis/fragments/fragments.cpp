@@ -60,7 +60,8 @@ bool is_cap(const Surroundings& around, double radius, const FragmentSettings& s
 // much of its circumference has a direction. Behind a cap, the tube continues away from the normals.
 Vector3d direction(const Surroundings& around, double radius, const FragmentSettings& settings) {
   if (is_cap(around, radius, settings)) return -around.normal.normalized();
-  const double unit = settings.step * radius;
+  constexpr double unit_of_spread = 0.4;  // radii
+  const double unit = unit_of_spread * radius;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(around.normals - around.spread / (unit * unit));
   return solver.eigenvectors().col(0);
 }
