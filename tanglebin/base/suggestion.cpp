@@ -5,27 +5,26 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
-#include <utility>
 
 #include "tanglebin/base/text.hpp"
 
 namespace tanglebin {
 namespace {
 
-// Levenshtein's distance: how many characters to insert, remove or replace.
+// How many characters to insert, remove or replace, or neighbours to swap (optimal string alignment).
 std::size_t edit_distance(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+  std::vector<std::vector<std::size_t>> distances(from.size() + 1, std::vector<std::size_t>(to.size() + 1));
+  for (std::size_t i = 0; i <= from.size(); ++i) distances[i][0] = i;
+  for (std::size_t j = 0; j <= to.size(); ++j) distances[0][j] = j;
+  for (std::size_t i = 1; i <= from.size(); ++i) {
+    for (std::size_t j = 1; j <= to.size(); ++j) {
+      const std::size_t replaced = distances[i - 1][j - 1] + (from[i - 1] == to[j - 1] ? 0 : 1);
+      distances[i][j] = std::min({replaced, distances[i - 1][j] + 1, distances[i][j - 1] + 1});
+      const bool are_swapped = i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1];
+      if (are_swapped) distances[i][j] = std::min(distances[i][j], distances[i - 2][j - 2] + 1);
     }
   }
-  return row.back();
+  return distances[from.size()][to.size()];
 }
 
 }  // namespace

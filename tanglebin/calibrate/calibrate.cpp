@@ -224,11 +224,8 @@ private:
     if (settings_.scoring.method == Method::axis) {
       expect_budget();
       progress_.step = "learning the weights of links";
-      Parameters with_links = settings_.start;
-      for (const auto& [name, weight] :
-           learn_links_once(training_.dataset, training_.scenes, directory_ / "links.toml", workers_))
-        with_links.insert_or_assign(name, weight);
-      race.run(with_links);
+      race.run(with_links(settings_.start, learn_links_once(training_.dataset, training_.scenes,
+                                                            directory_ / "links.toml", workers_)));
     }
     progress_.step = "tuning";
     tune(race, tunable_parameters(settings_.scoring.method),

@@ -52,7 +52,7 @@ struct CalibrationObserver {
 
 /// What came of a calibration.
 struct Calibration {
-  Profile profile;                           ///< without parameters if the defaults are as good
+  Profile profile;                           ///< with the parameters of the start if these are as good
   std::vector<Sensitivity> sensitivities{};  ///< of the first round; empty if the budget ended before
   std::size_t evaluations = 0;
   bool is_better = false;  ///< than the start, on the scenes that it was not calibrated on

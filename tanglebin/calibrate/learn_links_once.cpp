@@ -1,8 +1,11 @@
 #include "tanglebin/calibrate/learn_links_once.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
 
 #include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/calibrate/scene_scores.hpp"
@@ -31,16 +34,17 @@ double rounded_weight(double weight) {
   return std::round(weight * decimals) / decimals;
 }
 
-LinkWeights rounded_where_learned(LinkWeights weights) {
+// Of the kinds of links that the scenes have.
+Parameters learned_parameters(const LinkWeights& weights) {
+  Parameters learned = link_parameters(weights);
   for (const LinkKind kind : link_kinds) {
-    LinkFeatures& its = weights.of(kind);
-    const bool is_learned = std::ranges::any_of(its, [](double weight) { return weight != 0; });
-    if (is_learned)
-      std::ranges::transform(its, its.begin(), rounded_weight);
-    else
-      its = learned_weights.of(kind);
+    const LinkFeatures& its = weights.of(kind);
+    if (std::ranges::any_of(its, [](double weight) { return weight != 0; })) continue;
+    const std::string prefix = fmt::format("axis.link.weights.{}.", name_of(kind));
+    std::erase_if(learned, [&](const auto& parameter) { return parameter.first.starts_with(prefix); });
   }
-  return weights;
+  for (auto& [name, weight] : learned) weight = rounded_weight(weight);
+  return learned;
 }
 
 }  // namespace
@@ -48,17 +52,23 @@ LinkWeights rounded_where_learned(LinkWeights weights) {
 Parameters learn_links_once(const Dataset& dataset, const std::vector<CaseId>& scenes,
                             const std::filesystem::path& file, const WorkersObserver& observer) {
   const auto learn = [&](std::size_t /*task*/) {
-    const LinkWeights weights = rounded_where_learned(weights_from(dataset, scenes));
+    const Parameters learned = learned_parameters(weights_from(dataset, scenes));
     write_file(file, bytes_of([&](std::ostream& out) {
-                 write_profile(out, {.parameters = link_parameters(weights), .method = Method::axis},
+                 write_profile(out, {.parameters = learned, .method = Method::axis},
                                "Weights of links, learned from the scenes to calibrate on");
                }));
     return std::string();
   };
   if (!std::filesystem::exists(file) && !run_in_workers(1, 1, learn, observer)) throw CalibrationStopped();
   if (!std::filesystem::exists(file)) return {};  // the worker failed
+  return read_profile(file).parameters;
+}
+
+Parameters with_links(const Parameters& start, const Parameters& learned) {
   ModelSettings settings;
-  apply(read_profile(file), settings);
+  for (const Parameters& given : {start, learned}) {
+    for (const auto& [name, value] : given) set_parameter(settings, name, value);
+  }
   return changed_parameters(settings);
 }
 

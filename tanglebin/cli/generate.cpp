@@ -52,11 +52,11 @@ void generate(const GenerateArguments& arguments) {
   const std::optional<Shard> shard = shard_of(arguments.shard);
   std::vector<CaseId> wanted = chosen(arguments.many, cases(recipe), arguments.recipe);
   if (shard) wanted = part_of(*shard, wanted);
+  if (recipe.random.empty()) with_file(arguments.recipe, [&] { expect_bin_in_view(recipe); });
   if (arguments.dry_run) {
     print_dry_run(recipe, wanted, {arguments.many.jobs, arguments.json, arguments.picture});
     return;
   }
-  if (recipe.random.empty()) with_file(arguments.recipe, [&] { expect_bin_in_view(recipe); });
   const Clock::time_point start = Clock::now();
   const FillSummary summary = [&] {
     ProgressReport progress(arguments.progress);

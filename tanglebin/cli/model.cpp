@@ -174,7 +174,7 @@ void add_model(CLI::App& app) {
                     "First find the scene's bin or plane in the cloud (tanglebin locate)");
   command->add_option("--debug-dir", arguments->debug_directory,
                       "Directory for pictures of the result of each step");
-  command->add_flag("--json", arguments->json, "Print the steps as JSON");
+  command->add_flag("--json", arguments->json, "Print steps, tubes, counts and findings as JSON");
   command->footer(
       "Example:\n  tanglebin model scan.ply --scene scene.toml --out labelled.ply --modelled-tubes "
       "tubes.txt\n"

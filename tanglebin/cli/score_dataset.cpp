@@ -1,6 +1,8 @@
 #include "tanglebin/cli/score_dataset.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -73,15 +75,22 @@ void score_dataset(const std::string& directory, const std::string& labels, bool
               "ARI");
   std::vector<MeanScore> means;
   std::size_t failed = 0;
+  std::vector<bool> repeats_truth;  // of each scene with several tubes; of one, the labels are often right
   for (const CaseId& id : cases(dataset)) {
     for (const Scanner& scanner : scanners(dataset.recipe)) {
       const SceneScore scene = score_scene(dataset, {id, scanner.name}, {labels});
       (json ? print_scene_json : print_scene)(scene);
       add(means, scene);
+      if (scene.score && scene.score->labels.tubes.size() > 1) repeats_truth.push_back(scene.repeats_truth);
       if (scene.failure && scene.failure->of == FailureOf::method) ++failed;
     }
   }
   (json ? print_means_json : print_means)(means);
+  if (!repeats_truth.empty() && std::ranges::all_of(repeats_truth, std::identity()))
+    print_error(
+        "tanglebin: warning: {}: its labels are the truth's own at every point of every scene; are they the "
+        "result to score?\n",
+        labels);
   if (failed > 0) throw CLI::RuntimeError(exit_cases_failed);
 }
 

@@ -94,25 +94,33 @@ private:
       warn(fmt::format("{}: the scanner{}{} sees no tube", name_of(id), scanner.empty() ? "" : " ", scanner));
   }
 
-  double make(const CaseId& id) {
-    Recipe resolved = resolve(recipe_, id, draw(recipe_, id));
-    for (const std::string& doubt : doubts(of_case_alone(resolved, id))) warn(doubt);
-    SimulatedScene scene = simulate(resolved, id);
-    const double bytes = size_of(case_files(resolved, id, scene));
-    look(scene.scan, resolved.scanner_name, id);
+  // Nothing of a case that has no valid recipe or scene, which fails in a dataset too.
+  std::optional<MadeScene> make(const CaseId& id) {
+    try {
+      Recipe resolved = resolve(recipe_, id, draw(recipe_, id));
+      for (const std::string& doubt : doubts(of_case_alone(resolved, id))) warn(doubt);
+      SimulatedScene scene = simulate(resolved, id);
+      return MadeScene{std::move(resolved), std::move(scene)};
+    } catch (const InputError& error) {
+      warn(fmt::format("{}: {}", name_of(id), error.problem()));
+      return std::nullopt;
+    }
+  }
+
+  void look(const MadeScene& made, const CaseId& id) {
+    const auto& [recipe, scene] = made;
+    look(scene.scan, recipe.scanner_name, id);
     for (std::size_t i = 0; i < scene.further_scans.size(); ++i)
-      look(scene.further_scans[i], resolved.further_scanners[i].name, id);
-    if (!result_.first) result_.first = MadeScene{std::move(resolved), std::move(scene)};
-    return bytes;
+      look(scene.further_scans[i], recipe.further_scanners[i].name, id);
   }
 
   Effort effort_of(const CaseId& id) {
     const auto start = std::chrono::steady_clock::now();
     Effort effort;
-    try {
-      effort.bytes = make(id);
-    } catch (const InputError& error) {
-      warn(fmt::format("{}: {}", name_of(id), error.problem()));
+    if (std::optional<MadeScene> made = make(id)) {
+      effort.bytes = size_of(case_files(made->recipe, id, made->scene));
+      look(*made, id);
+      if (!result_.first) result_.first = std::move(made);
     }
     effort.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return effort;

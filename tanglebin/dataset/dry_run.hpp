@@ -33,7 +33,8 @@ struct DryRun {
 
 /// Makes the first of the wanted cases (at least one) with the fewest, a middle and the largest number of
 /// tubes of each set, and writes nothing. What the other cases take is interpolated between these. Warnings
-/// are the doubts() about their recipes, cases without a valid scene, and scanners that see no tube.
+/// are the doubts() about their recipes, cases without a valid scene, and scanners that see no tube. Throws
+/// InputError if a file of a case cannot be made, as generate_dataset() does.
 DryRun dry_run(const Recipe& recipe, const std::vector<CaseId>& wanted);
 
 }  // namespace tanglebin

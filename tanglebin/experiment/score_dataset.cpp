@@ -23,6 +23,7 @@ SceneScore score_scene(const Dataset& dataset, const SeenCase& seen, const Label
     Modelled modelled = model_by(entry, known, data, run, {.ratios = {1}}, {});
     modelled.model.filtered.resize(data.cloud.points.size());
     std::iota(modelled.model.filtered.begin(), modelled.model.filtered.end(), std::size_t{0});
+    scene.repeats_truth = modelled.model.labels == data.cloud.labels;
     scene.score = score_model(data, modelled.model, modelled.has_tubes);
   } catch (const InputError& error) {
     scene.failure = {FailureOf::method, complaint_of(error)};

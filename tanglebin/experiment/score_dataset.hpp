@@ -14,6 +14,7 @@ struct SceneScore {
   SeenCase seen;
   std::optional<ModelScore> score{};  ///< of all points on tubes; none if it failed
   std::optional<RunFailure> failure{};
+  bool repeats_truth = false;  ///< the labels are the cloud's own at every point: perhaps copied by mistake
 };
 
 /// Scores the labels of a case's cloud in a directory (find_labels()). A case without labels or with such

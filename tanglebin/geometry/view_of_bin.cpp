@@ -60,4 +60,11 @@ void validate(const Camera& camera, const Bin& bin) {
   }
 }
 
+DepthRange depths_of(const Camera& camera, const Bin& bin) {
+  const auto depth = [](const Vector3d& corner) { return corner.z(); };
+  const Points corners = corners_in_camera(camera, bin);
+  const auto [nearest, farthest] = std::ranges::minmax_element(corners, {}, depth);
+  return {nearest->z(), farthest->z()};
+}
+
 }  // namespace tanglebin

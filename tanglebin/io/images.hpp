@@ -13,6 +13,9 @@ namespace tanglebin {
 /// Depth image steps per metre: one step is 0.1 mm.
 inline constexpr double depth_scale = 10000;
 
+/// The largest depth in a depth image, m.
+inline constexpr double deepest = 65535 / depth_scale;
+
 /// Value in a label image for pixels whose ray hit nothing.
 inline constexpr int nothing_in_label_image = 65535;
 

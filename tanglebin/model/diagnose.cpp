@@ -27,11 +27,17 @@ double share_of(std::size_t part, std::size_t all) {
 
 // "7 %", "0.3 %"; never 0 % or 100 % of a part.
 std::string percent(std::size_t part, std::size_t all) {
+  constexpr double most = 99.9;
   const double value = 100 * share_of(part, all);
-  const bool is_near_an_end = value < 1 || value > 99;
-  return part == all      ? "all"
-         : is_near_an_end ? fmt::format("{:.2g} %", value)
-                          : fmt::format("{:.0f} %", value);
+  return part == all  ? "all"
+         : value < 1  ? fmt::format("{:.2g} %", value)
+         : value > 99 ? fmt::format("{:.1f} %", std::min(value, most))
+                      : fmt::format("{:.0f} %", value);
+}
+
+// To one decimal, so that what is above a limit does not look like the limit.
+double rounded_up(double value) {
+  return std::ceil(10 * value) / 10;
 }
 
 std::string millimetres(double metres) {
@@ -170,6 +176,13 @@ private:
                          name_of(known_.support.shape)));
       return;
     }
+    if (model_.filtered.empty()) {
+      refuse("no-tubes",
+             fmt::format("none of the {} points that may be on tubes was looked at, at a ratio of "
+                         "{}: downsample less",
+                         kept(), ratio_));
+      return;
+    }
     const std::optional<double> radius = other_radius();
     refuse(radius ? "radius" : "no-tubes",
            fmt::format("none of the {} points looked at is on a tube of radius {}{}", kept(), radii(),
@@ -273,10 +286,10 @@ private:
     const std::optional<double> noise = scatter();
     constexpr double noise_max = 0.1;
     if (noise && *noise > noise_max)
-      warn("noise", fmt::format("the points scatter about the tubes by {:.0f} % of the radius, and more than "
+      warn("noise", fmt::format("the points scatter about the tubes by {:.1f} % of the radius, and more than "
                                 "{:.0f} % is too much to "
                                 "tell tubes apart safely: is the sensor that noisy, or the radius wrong?",
-                                100 * *noise, 100 * noise_max));
+                                rounded_up(100 * *noise), 100 * noise_max));
   }
 
   void doubt_unexplained() {

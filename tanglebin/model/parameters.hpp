@@ -10,7 +10,14 @@
 
 namespace tanglebin {
 
-/// The values of a parameter among which `tanglebin calibrate` looks for a better one. Others may be valid.
+/// The values that a parameter may have.
+struct Bounds {
+  double least;
+  double greatest;
+};
+
+/// The values of a parameter among which `tanglebin calibrate` looks for a better one. They are within its
+/// bounds.
 struct SearchRange {
   double least;
   double greatest;
@@ -20,9 +27,10 @@ struct SearchRange {
 /// What a parameter is.
 struct Parameter {
   std::string name;
-  std::string meaning;               ///< with its unit first
-  double standard;                   ///< its default
-  bool is_whole;                     ///< a count
+  std::string meaning;  ///< with its unit first
+  double standard;      ///< its default
+  bool is_whole;        ///< a count
+  Bounds bounds;
   std::optional<SearchRange> range;  ///< none of the weights of links, which are learned
 };
 
@@ -35,8 +43,8 @@ std::map<std::string, double> parameters(const ModelSettings& settings);
 /// The parameters that differ from their defaults.
 std::map<std::string, double> changed_parameters(const ModelSettings& settings);
 
-/// Sets a parameter. Throws InputError naming it for an unknown name and for an invalid value. Values are
-/// finite, and not negative unless they are weights; counts are whole numbers, 1 or more.
+/// Sets a parameter. Throws InputError naming it for an unknown name and for a value outside of its
+/// bounds. Counts are whole numbers.
 void set_parameter(ModelSettings& settings, std::string_view name, double value);
 
 /// The same from an assignment such as "axis.vote.floor_margin=0.4". Errors name `option` too.

@@ -70,7 +70,8 @@ std::vector<NamedPicture> pictures_of_steps(const PointCloud& cloud, const Paper
   pictures.push_back({"2-segmented", picture_of_cloud(clusters_of(steps), view, name)});
   if (steps.cylinders.empty()) return pictures;
   std::vector<Tube> cylinders;
-  for (const JoinedTube& alone : joined_tubes(steps.cylinders, {}, radius)) cylinders.push_back(alone.tube);
+  for (const JoinedTube& alone : joined_tubes(steps.cylinders, {}, {.radius = radius}))
+    cylinders.push_back(alone.tube);
   pictures.push_back({"3-fitted", picture_of_tubes(cylinders, support, view, name)});
   pictures.push_back({"4-joined", picture_of_tubes(steps.model.tubes, support, view, name)});
   pictures.push_back({"5-labelled", picture_of_cloud(labelled_of(cloud, steps.model), view, name)});

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "tanglebin/geometry/view_of_bin.hpp"
+#include "tanglebin/io/images.hpp"
+
 namespace tanglebin {
 namespace {
 
@@ -54,6 +57,11 @@ void doubt_camera(const Recipe& recipe, const Camera& camera, const std::string&
   if (!is_rim_in_view(camera, recipe.bin))
     found.push_back(fmt::format("{}: part of the bin's rim is out of the camera's view", where));
   if (depth_of(camera, Eigen::Vector3d::Zero()) > 0) doubt_pixels(recipe, camera, where, found);
+  const double farthest = depths_of(camera, recipe.bin).farthest;
+  if (recipe.output.depths && farthest > deepest)
+    found.push_back(
+        fmt::format("{}: the bin is up to {:.4g} m from the camera; depth images have no more than {} m",
+                    where, farthest, deepest));
 }
 
 // Bends and ends hardly count.

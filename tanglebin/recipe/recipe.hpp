@@ -140,8 +140,8 @@ Recipe resolve(const Recipe& recipe, const CaseId& id, const std::vector<DrawnNu
 /// a bin smaller than a tube. read_recipe() calls it; if you change a recipe, call it yourself.
 void validate(const Recipe& recipe);
 
-/// Throws InputError naming a scanner that cannot see the bin. A recipe may be valid and of no use: its
-/// dataset can still be read.
+/// Throws InputError naming a scanner that cannot see the bin, or that has it out of range of the depth
+/// images that the recipe asks for. A recipe may be valid and of no use: its dataset can still be read.
 void expect_bin_in_view(const Recipe& recipe);
 
 /// Reads a recipe (TOML, docs/formats.md). Unknown keys are errors. A random number must make a valid recipe

@@ -15,6 +15,7 @@
 #include "tanglebin/base/expect.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/geometry/view_of_bin.hpp"
+#include "tanglebin/io/images.hpp"
 #include "tanglebin/recipe/case_id.hpp"
 #include "tanglebin/recipe/randomization.hpp"
 
@@ -183,12 +184,22 @@ void validate_scanners(const Recipe& recipe) {
   }
 }
 
+// Depth images of a bin beyond their range are empty.
+void expect_in_range_of_depths(const Camera& camera, const Bin& bin) {
+  const double nearest = depths_of(camera, bin).nearest;
+  expect(nearest <= deepest, "scanner.position", fmt::format("the bin {:.4g} m from the camera", nearest),
+         fmt::format("at most {} m, the largest depth in a depth image; or switch depths off", deepest));
+}
+
 }  // namespace
 
 void expect_bin_in_view(const Recipe& recipe) {
   const std::vector<Scanner> all = scanners(recipe);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    check_scanner(place_of_scanner(recipe, i), [&] { validate(all[i].camera, recipe.bin); });
+    check_scanner(place_of_scanner(recipe, i), [&] {
+      validate(all[i].camera, recipe.bin);
+      if (recipe.output.depths) expect_in_range_of_depths(all[i].camera, recipe.bin);
+    });
   }
 }
 

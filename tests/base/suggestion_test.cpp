@@ -7,7 +7,8 @@ namespace {
 
 TEST(Suggestion, NamesWhatDiffersInFewCharactersOrIsLonger) {
   EXPECT_EQ(suggestion("generat", {"merge", "generate"}), "did you mean 'generate'?");
-  EXPECT_EQ(suggestion("scna", {"score", "scan"}), "expected one of score, scan");
+  EXPECT_EQ(suggestion("scna", {"score", "scan"}), "did you mean 'scan'?");
+  EXPECT_EQ(suggestion("heigth", {"length", "height"}), "did you mean 'height'?");
   EXPECT_EQ(suggestion("scam", {"score", "scan"}), "did you mean 'scan'?");
   EXPECT_EQ(suggestion("exp", {"score", "experiment"}), "did you mean 'experiment'?");
 }

@@ -119,6 +119,30 @@ TEST_F(Generate, RefusesWhatItCannotUseBeforeItBegins) {
   }
 }
 
+// What a dataset is refused for, a dry run is too.
+TEST_F(Generate, RefusesTheSameWithAndWithoutADryRun) {
+  const auto said = [&](const std::string& scanner, const std::string& options) {
+    std::ofstream(recipe_)
+        << "[output]\ndepths = true\n[scanner]\nwidth = 64\nheight = 40\n"
+        << scanner
+        << "\n[[set]]\nname = \"A\"\ntubes = [1]\n[set.tube]\nradius = 0.0125\nmass = 0.5\n"
+           "length = 0.3\nbend_max_deg = 30\n";
+    const auto result = run_program("generate " + recipe_.string() + options);
+    EXPECT_EQ(result.status, 2) << scanner << options;
+    return result.err;
+  };
+  for (const std::string& options : {std::string(" --dry-run"), " --out " + out()}) {
+    EXPECT_THAT(said("hfov_deg = 2", options),
+                HasSubstr("scanner: found a horizontal field of view of 0.0349"));
+    EXPECT_THAT(
+        said("look_at = [0, 0, 0]\ndistance = 8", options),
+        HasSubstr("scanner.position: found the bin 7.6 m from the camera, expected at most 6.5535 m, the "
+                  "largest depth in a depth image; or switch depths off"));
+    EXPECT_THAT(said("position = [3, 0, 1]\nlook_at = [5, 0, 3]", options),
+                HasSubstr("expected one that has the bin in its view"));
+  }
+}
+
 TEST_F(Generate, NeedsADirectoryUnlessItIsADryRun) {
   const auto without = run_program("generate " + recipe_.string());
   EXPECT_EQ(without.status, 64);

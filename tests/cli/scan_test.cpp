@@ -186,6 +186,7 @@ TEST_F(ScanCommand, TheExtensionSaysTheFormat) {
   EXPECT_EQ(said("c.ply --labels a.png --picture a.png"),
             "tanglebin: --picture: found 'a.png' twice, expected different files\n");
   EXPECT_THAT(said("- --labels -"), HasSubstr("--labels: found '-' twice"));
+  EXPECT_THAT(said("c.ply --labels a.png --picture ./a.png"), HasSubstr("--picture: found './a.png' twice"));
   EXPECT_EQ(files_below(directory_.path().string()).size(), 1U) << "nothing is written";
 
   run_program("scan " + configuration_.string() + " --out " + (directory_ / "CLOUD.PCD").string());

@@ -132,6 +132,31 @@ TEST_F(ScoreCommand, WarnsOfTheTruthsOwnLabels) {
   EXPECT_EQ(score_example().err, "");
 }
 
+TEST_F(ScoreCommand, WarnsOfTheTruthsOwnLabelsOfADataset) {
+  ASSERT_EQ(run_program("generate - --out " + path("dataset"),
+                        "[scanner]\nwidth = 192\nheight = 120\n[[set]]\nname = \"A\"\ntubes = [1, 2]\n"
+                        "[set.tube]\nradius = 0.0125\nmass = 0.5\nlength = 0.3\nbend_max_deg = 30\n")
+                .status,
+            0);
+  const ProgramResult copied = run_program("score " + path("dataset") + " " + path("dataset"));
+  EXPECT_EQ(copied.status, 0);
+  EXPECT_EQ(copied.err, "tanglebin: warning: " + path("dataset") +
+                            ": its labels are the truth's own at every point of every scene; are they the "
+                            "result to score?\n");
+
+  // Right, with other numbers.
+  std::filesystem::copy(path("dataset"), path("labels"), std::filesystem::copy_options::recursive);
+  std::ifstream in(path("dataset/A2/plys/1.ply"), std::ios::binary);
+  PointCloud cloud = read_ply(in, "1.ply");
+  for (std::int32_t& label : cloud.labels) label = label > 0 ? 3 - label : label;
+  std::ofstream out(path("labels/A2/plys/1.ply"), std::ios::binary);
+  write_ply(out, cloud);
+  out.close();
+  const ProgramResult own = run_program("score " + path("dataset") + " " + path("labels"));
+  EXPECT_EQ(own.status, 0);
+  EXPECT_EQ(own.err, "");
+}
+
 TEST_F(ScoreCommand, ATubeWithoutALabelHasNone) {
   write("one.ply", one_point("0.071 0.25 0", "4"));
   EXPECT_THAT(score("truth.ply", "one.ply").out,

@@ -23,6 +23,7 @@ using test::Mistake;
 using test::organized;
 using test::right_view;
 using test::View;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -67,6 +68,23 @@ TEST(Diagnose, SaysWhatIsWrongOnPurpose) {
     EXPECT_TRUE(model.is_refused() || mistake.severity == Finding::Severity::warning) << mistake.name;
     EXPECT_FALSE(model.findings.empty()) << mistake.name;
   }
+}
+
+TEST(Diagnose, NeverSaysAllOrHundredPercentOfAPart) {
+  View view = right_view();
+  for (std::size_t i = 1; i < view.cloud.points.size(); ++i) view.cloud.points[i] = {2, 2, 0};
+  EXPECT_THAT(text_of(model_of(view).findings),
+              HasSubstr("99.9 % of the points are outside of the camera's"));
+  view.cloud.points[0] = {2, 2, 0};
+  EXPECT_THAT(text_of(model_of(view).findings), HasSubstr("all of the points are outside of the camera's"));
+}
+
+TEST(Diagnose, SaysIfNothingWasLookedAt) {
+  const View view = right_view();
+  EXPECT_THAT(
+      text_of(model_tubes(view.cloud, view.scene, {.ratio = 1e-9}).findings),
+      ContainsRegex("none of the [0-9]+ points that may be on tubes was looked at, at a ratio of 1e-09: "
+                    "downsample less"));
 }
 
 TEST(Diagnose, RealColoursAndTheColoursOfLabelsAreNoMistake) {

@@ -4,12 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <stdexcept>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/model/axis/axis_method.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
+#include "tanglebin/model/parameters.hpp"
 #include "tanglebin/scan/scan_output.hpp"
 #include "tanglebin/score/score.hpp"
 #include "tests/model/scene/scanned.hpp"
@@ -202,6 +207,13 @@ TEST_P(ModelTubes, RefusesASceneThatIsNone) {
               HasSubstr("length: found nan m from node 1 to 2, expected a positive"));
   scene.kinds[0].segments = {{1, 2, 0.3}, {1, 3, 0.1}, {3, 2, 0.1}};
   EXPECT_THAT(complaint({}, scene, 1), HasSubstr("tree: found a segment to node 2, which closes a loop"));
+  for (const double length_min : {-0.1, 0.6, std::numeric_limits<double>::quiet_NaN()}) {
+    scene.kinds[0].segments = {{1, 2, 0.5}};
+    scene.kinds[0].length_min = length_min;
+    EXPECT_THAT(complaint({}, scene, 1),
+                AllOf(HasSubstr("length_min: found "),
+                      HasSubstr("expected 0 if it is not known, or at most the length of 0.5 m")));
+  }
   scene = paper_scene();
   scene.kinds.push_back(scene.kinds[0]);
   EXPECT_THAT(complaint({}, scene, 1),
@@ -210,6 +222,75 @@ TEST_P(ModelTubes, RefusesASceneThatIsNone) {
   EXPECT_THAT(complaint({}, scene, 1), HasSubstr("kinds: found none"));
   EXPECT_THAT(complaint({}, paper_scene(), 0), HasSubstr("downsample: found 0, expected a ratio above 0"));
   EXPECT_THAT(complaint({}, paper_scene(), 1.5), HasSubstr("downsample: found 1.5"));
+}
+
+/// A method with parameters that nobody would choose.
+class UnusualParameters : public testing::TestWithParam<Method> {
+protected:
+  static std::vector<Parameter> of_method() {
+    std::vector<Parameter> all = declared_parameters();
+    std::erase_if(all, [](const Parameter& parameter) {
+      return !parameter.name.starts_with(std::string(name_of(GetParam())) + '.');
+    });
+    return all;
+  }
+
+  static Model modelled(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings) {
+    constexpr double ratio = 0.5;
+    constexpr std::uint64_t seed = 1;
+    return GetParam() == Method::paper
+               ? model_as_in_paper(cloud, known, ratio, seed, settings.paper, [] {}).model
+               : model_by_axes(cloud, known, ratio, seed, settings.axis, [] {}).model;
+  }
+
+  static void expect_model(const ModelSettings& settings) {
+    KnownScene known = paper_scene();
+    known.camera = test::camera_at({0.3, 0.2, 1.6}, {0, 0, 0}, 320, 240, 0.7);
+    // Without the bin's points, which are many if the filter leaves them.
+    static const PointCloud cloud =
+        cloud_from_scan(scan(three_tubes(), known.support.bin, known.camera), CloudOf::tubes, 3);
+    std::vector<SegmentTree> tubes = {known.kinds[0].segments};
+    if (GetParam() != Method::paper) tubes.push_back({{1, 4, 0.2}, {4, 2, 0.2}, {4, 3, 0.1}});
+    for (const SegmentTree& segments : tubes) {
+      known.kinds[0].segments = segments;
+      const Model model = modelled(cloud, known, settings);
+      EXPECT_EQ(model.labels.size(), cloud.points.size());
+      for (const Tube& tube : model.tubes) {
+        for (const auto& node : tube.nodes) EXPECT_TRUE(node.position.allFinite());
+      }
+    }
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(By, UnusualParameters, testing::ValuesIn(methods()),
+                         [](const auto& method) { return name_of(method.param); });
+
+TEST_P(UnusualParameters, AtEitherBoundStillGiveAModel) {
+  for (const Parameter& parameter : of_method()) {
+    for (const double value : {parameter.bounds.least, parameter.bounds.greatest}) {
+      SCOPED_TRACE(parameter.name);
+      ModelSettings settings;
+      set_parameter(settings, parameter.name, value);
+      expect_model(settings);
+    }
+  }
+}
+
+TEST_P(UnusualParameters, TogetherStillGiveAModel) {
+  std::mt19937 random;
+  const std::vector<Parameter> all = of_method();
+  for (int i = 0; i < 60; ++i) {
+    ModelSettings settings;
+    for (const auto& [name, meaning, standard, is_whole, bounds, range] : all) {
+      // At a bound, not far from the default, or the default.
+      const std::array values = {bounds.least, bounds.greatest, 0.5 * standard,
+                                 2 * standard, standard,        standard};
+      const double value = std::clamp(values.at(random() % values.size()), bounds.least, bounds.greatest);
+      set_parameter(settings, name, is_whole ? std::ceil(value) : value);
+    }
+    SCOPED_TRACE(testing::PrintToString(changed_parameters(settings)));
+    expect_model(settings);
+  }
 }
 
 TEST(PaperMethod, KnowsOneRadiusOnly) {

@@ -38,6 +38,14 @@ TEST(Doubts, AboutACameraBelowTheFloor) {
               ElementsAre("scanner: the camera is 2 m below the bin's floor"));
 }
 
+TEST(Doubts, AboutWhatIsTooFarForDepthImages) {
+  const std::string scanner = "[scanner]\nhfov_deg = 20\nposition = [0, 0, 6.6]\nlook_at = [0.05, 0, 0]\n";
+  EXPECT_THAT(doubts_about(scanner), IsEmpty());
+  EXPECT_THAT(doubts_about("[output]\ndepths = true\n" + scanner),
+              ElementsAre("scanner: the bin is up to 6.602 m from the camera; depth images have no more than "
+                          "6.5535 m"));
+}
+
 TEST(Doubts, AboutTubesOfFewPixels) {
   EXPECT_THAT(
       doubts_about("[[scanner]]\nname = \"near\"\n[[scanner]]\nname = \"far\"\nposition = [0, 0, 10]\n"),

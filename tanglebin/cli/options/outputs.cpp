@@ -28,12 +28,20 @@ bool is_device_or_pipe(const std::string& file) {
   return fs::is_other(fs::status(file, error));
 }
 
+// The same for every name of a file: "x.ply", "./x.ply".
+std::string place_of(const std::string& file) {
+  if (file == standard_stream) return file;
+  std::error_code error;
+  const fs::path place = fs::weakly_canonical(fs::absolute(file, error), error);
+  return error ? file : place.string();
+}
+
 }  // namespace
 
 void expect_outputs(const std::vector<Output>& outputs) {
-  std::set<std::string> files;
+  std::set<std::string> places;
   for (const auto& [option, file, extensions] : outputs) {
-    if (!files.insert(file).second)
+    if (!places.insert(place_of(file)).second)
       throw InputError({"", 0, option}, excerpt(file) + " twice", "different files");
     if (file == standard_stream || is_device_or_pipe(file)) continue;
     if (std::ranges::find(extensions, extension_of(file)) == extensions.end())

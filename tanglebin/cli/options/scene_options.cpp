@@ -196,8 +196,15 @@ void override_camera(const SceneOptions& options, const std::string& input, Scen
 std::vector<std::optional<LengthRange>> ranges(const std::string& text, std::string_view unknown,
                                                const std::string& option) {
   if (text == unknown) return {std::nullopt};
+  const auto lengths = [&] {
+    try {
+      return parse_lengths(text, option);
+    } catch (const InputError& error) {
+      throw InputError(error.place(), fmt::format("{} or {}", error.problem(), unknown));
+    }
+  };
   std::vector<std::optional<LengthRange>> result;
-  for (const double length : parse_lengths(text, option)) result.emplace_back(LengthRange{length, length});
+  for (const double length : lengths()) result.emplace_back(LengthRange{length, length});
   return result;
 }
 

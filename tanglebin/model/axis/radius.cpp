@@ -28,7 +28,9 @@ namespace {
 }
 
 std::string millimetres(double metres) {
-  return fmt::format("{:.2g} mm", 1e3 * metres);
+  const double value = 1e3 * metres;
+  constexpr double two_digits = 99.5;  // above, {:.2g} writes 1e+02
+  return value < two_digits ? fmt::format("{:.2g} mm", value) : fmt::format("{:.0f} mm", value);
 }
 
 void validate(const RadiusRange& range) {

@@ -13,6 +13,7 @@
 
 #include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/text.hpp"
 #include "tanglebin/model/locate/bin_fit.hpp"
 #include "tanglebin/model/locate/bin_parts.hpp"
 #include "tanglebin/model/locate/bin_search.hpp"
@@ -512,7 +513,7 @@ Located locate(const PointCloud& cloud, const Support& support, const Camera& ca
   validate(support);
   validate(camera);
   if (support.shape == Support::Shape::nothing) {
-    throw InputError({.file = "", .line = 0, .field = "support.shape"}, name_of(support.shape),
+    throw InputError({.file = "", .line = 0, .field = "support.shape"}, excerpt(name_of(support.shape)),
                      "bin or plane, to be located");
   }
   const View view = view_of(cloud, camera);

@@ -105,7 +105,9 @@ Cylinder densest_piece(const OrientedCloud& cloud, const EndlessCylinder& cylind
   const double end = std::prev(best_last)->first;
   const double trim = std::min(settings.trim, (end - start) / 4);
   Cylinder piece{
-      {cylinder.point + (start + trim) * cylinder.axis, cylinder.point + (end - trim) * cylinder.axis}, {}};
+      {cylinder.point + (start + trim) * cylinder.axis, cylinder.point + (end - trim) * cylinder.axis},
+      {},
+      trim};
   std::transform(best_first, best_last, std::back_inserter(piece.points),
                  [](const auto& point) { return point.second; });
   std::ranges::sort(piece.points);

@@ -14,6 +14,7 @@ namespace tanglebin {
 struct Cylinder {
   std::array<Eigen::Vector3d, 2> ends;  ///< m, on the axis
   std::vector<std::size_t> points;      ///< its inliers: indices into the cloud's arrays, ascending
+  double trimmed = 0;                   ///< m, cut off each end
 };
 
 /// Finds cylinders of about the known radius (m) in one cluster of the cloud: RANSAC with normals, repeated

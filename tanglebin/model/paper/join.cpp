@@ -130,19 +130,25 @@ std::vector<Join> join_cylinders(const std::vector<Cylinder>& cylinders, const R
 }
 
 std::vector<JoinedTube> joined_tubes(const std::vector<Cylinder>& cylinders, const std::vector<Join>& joins,
-                                     double radius) {
+                                     const TubeKind& kind) {
   const Neighbours neighbours = neighbours_of(cylinders.size(), joins);
   std::vector<bool> done(cylinders.size());
   std::vector<JoinedTube> tubes;
+  const auto place_of = [&](const CylinderEnd& at) {
+    const Cylinder& its = cylinders[at.cylinder];
+    const bool is_cut = kind.flat_ends && !neighbours[at.cylinder][at.end];
+    return is_cut ? Eigen::Vector3d(its.ends[at.end] + its.trimmed * outward(its, at.end)) : its.ends[at.end];
+  };
   for (std::size_t i = 0; i < cylinders.size(); ++i) {
     if (done[i]) continue;
     JoinedTube joined;
     joined.tube.id = static_cast<int>(tubes.size()) + 1;
-    joined.tube.radius = radius;
+    joined.tube.radius = kind.radius;
+    joined.tube.flat_ends = kind.flat_ends;
     for (std::optional<CylinderEnd> near = start_of_chain(neighbours, i); near;) {
       const auto [cylinder, end] = *near;
-      extend(joined.tube, cylinders[cylinder].ends[end]);
-      extend(joined.tube, cylinders[cylinder].ends[1 - end]);
+      extend(joined.tube, place_of(*near));
+      extend(joined.tube, place_of({cylinder, 1 - end}));
       joined.cylinders.push_back(cylinder);
       done[cylinder] = true;
       near = neighbours[cylinder][1 - end];

@@ -7,6 +7,7 @@
 #include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/model/paper/fit.hpp"
 #include "tanglebin/model/paper/paper_settings.hpp"
+#include "tanglebin/model/scene/known_scene.hpp"
 #include "tanglebin/model/scene/range_image.hpp"
 
 namespace tanglebin {
@@ -45,8 +46,9 @@ struct JoinedTube {
   std::vector<std::size_t> cylinders;  ///< in the order of the chain
 };
 
-/// The tubes that result from the joins. Ids 1, 2, … follow each tube's first cylinder.
+/// The tubes of a kind that result from the joins. Ids 1, 2, … follow each tube's first cylinder. A flat end
+/// is where the cylinder's points end, a round one where it was trimmed.
 std::vector<JoinedTube> joined_tubes(const std::vector<Cylinder>& cylinders, const std::vector<Join>& joins,
-                                     double radius);
+                                     const TubeKind& kind);
 
 }  // namespace tanglebin

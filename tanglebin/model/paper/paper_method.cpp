@@ -67,7 +67,7 @@ PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, d
   // The joining step.
   const RangeImage seen(points_seen(cloud, cropped, model.filtered, ratio, seed), known.camera);
   result.joins = join_cylinders(result.cylinders, seen, kind.length(), settings.join);
-  const std::vector<JoinedTube> tubes = joined_tubes(result.cylinders, result.joins, kind.radius);
+  const std::vector<JoinedTube> tubes = joined_tubes(result.cylinders, result.joins, kind);
   for (const JoinedTube& joined : tubes) model.tubes.push_back(joined.tube);
   model.evidence.resize(tubes.size());
   clock.end_step("join", model.tubes.size(), "tubes");

@@ -44,6 +44,12 @@ void validate_fit(const TubeKind& kind, const Bin& bin) {
                                  hint_of_millimetres(kind.length())));
 }
 
+void validate_length_min(const TubeKind& kind) {
+  if (!(kind.length_min >= 0 && kind.length_min <= kind.length()))
+    throw InputError({"", 0, "length_min"}, fmt::format("{} m", kind.length_min),
+                     fmt::format("0 if it is not known, or at most the length of {} m", kind.length()));
+}
+
 }  // namespace
 
 void validate(const KnownScene& known) {
@@ -55,6 +61,7 @@ void validate(const KnownScene& known) {
     validate_radius(kind.radius);
     if (kind.branches() || !std::isinf(kind.length()))
       validate(kind.segments, kind.branches() ? "tree" : "length");
+    validate_length_min(kind);
     if (known.support.shape == Support::Shape::bin) validate_fit(kind, known.support.bin);
     if (!radii.insert(kind.radius).second)
       throw InputError({"", 0, "radius"}, fmt::format("{} m for two kinds", kind.radius),

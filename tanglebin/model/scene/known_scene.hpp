@@ -33,7 +33,8 @@ struct KnownScene {
 
 /// Throws InputError naming the invalid field: bin or camera; no kinds; a radius that is not a finite
 /// positive number, is too small or too large for the bin or belongs to two kinds; segments that do not form
-/// a tree or are together longer than ten times the bin's diagonal; a tree of unknown length.
+/// a tree or are together longer than ten times the bin's diagonal; a tree of unknown length; a least length
+/// that is negative or above the length.
 void validate(const KnownScene& known);
 
 }  // namespace tanglebin

@@ -89,6 +89,11 @@ TEST(EstimateRadius, OfTubesOfSeveralRadiiIsAnError) {
 }
 
 TEST(EstimateRadius, OfTooLittleIsAnError) {
+  const PointCloud floor = test::seen_by(test::small_camera(), {{0, test::wavy_floor(0, 1)}});
+  EXPECT_THAT(test::complaint([&] {
+                estimate_radius(floor, seen_without_support(test::small_camera()), {0.01, 0.123});
+              }),
+              testing::HasSubstr("too little of a tube of 10 mm to 123 mm radius"));
   EXPECT_EQ(test::complaint([] { estimated(test::scanned({})); }),
             "radius: the cloud shows too little of a tube to estimate it: 0 points that may be on one; give "
             "the radius");

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 Cylinder piece(const Vector3d& a, const Vector3d& b) {
-  return {{a, b}, {}};
+  return {.ends = {a, b}, .points = {}};
 }
 
 Camera papers_camera() {
@@ -115,7 +115,7 @@ RC_GTEST_PROP(JoinCylinders, MakesChainsOnly, (std::uint64_t seed)) {
   for (const Join& join : joins) {
     for (const CylinderEnd& end : join.ends) RC_ASSERT(ends.insert({end.cylinder, end.end}).second);
   }
-  const std::vector<JoinedTube> tubes = joined_tubes(pieces, joins, 0.0125);
+  const std::vector<JoinedTube> tubes = joined_tubes(pieces, joins, {.radius = 0.0125});
   RC_ASSERT(tubes.size() == pieces.size() - joins.size());
   std::vector<std::size_t> cylinders;
   for (const JoinedTube& joined : tubes) {
@@ -132,7 +132,7 @@ TEST(JoinedTubes, AreChainsThatTheTextFormatHolds) {
       piece({0.05, 0, 0.1}, {0.2, 0, 0.1}), piece({-0.05, 0, 0.1}, {-0.2, 0, 0.1}),
       piece({0.04, 0, 0.1}, {-0.04, 0, 0.1}), piece({0, 0.1, 0.1}, {0.1, 0.1, 0.1})};
   const std::vector<Join> joins = join_cylinders(pieces, lid(), 0.5, {});
-  const std::vector<JoinedTube> tubes = joined_tubes(pieces, joins, 0.0125);
+  const std::vector<JoinedTube> tubes = joined_tubes(pieces, joins, {.radius = 0.0125});
   ASSERT_EQ(tubes.size(), 2U);
   EXPECT_EQ(tubes[0].cylinders.size(), 3U);
   EXPECT_EQ(tubes[0].tube.edges.size(), 5U);  // three cylinders, two joints
@@ -147,10 +147,24 @@ TEST(JoinedTubes, AreChainsThatTheTextFormatHolds) {
   EXPECT_NEAR(total_length(read[0]), 0.4, 1e-9);
 }
 
+// Trimmed ends are where bends begin, or rounded ends.
+TEST(JoinedTubes, WithFlatEndsReachToTheEndsOfTheirPoints) {
+  std::vector<Cylinder> pieces = {piece({-0.1, 0, 0.1}, {0, 0, 0.1}), piece({0.01, 0, 0.1}, {0.1, 0, 0.1})};
+  for (Cylinder& cylinder : pieces) cylinder.trimmed = 0.004;
+  const std::vector<Join> joins = {{{{{0, 1}, {1, 0}}}, 0}};
+  const Tube flat = joined_tubes(pieces, joins, {.radius = 0.0125, .flat_ends = true}).at(0).tube;
+  EXPECT_TRUE(flat.flat_ends);
+  EXPECT_EQ(flat.nodes.size(), 4U);
+  EXPECT_NEAR(total_length(flat), 0.208, 1e-12);
+  const Tube round = joined_tubes(pieces, joins, {.radius = 0.0125}).at(0).tube;
+  EXPECT_FALSE(round.flat_ends);
+  EXPECT_NEAR(total_length(round), 0.2, 1e-12);
+}
+
 TEST(JoinedTubes, PutOneNodeWhereTwoEndsMeet) {
   const std::vector<Cylinder> pieces = {piece({-0.1, 0, 0.1}, {0, 0, 0.1}),
                                         piece({0, 0, 0.1}, {0.1, 0, 0.1})};
-  const std::vector<JoinedTube> tubes = joined_tubes(pieces, {{{{{0, 1}, {1, 0}}}, 0}}, 0.0125);
+  const std::vector<JoinedTube> tubes = joined_tubes(pieces, {{{{{0, 1}, {1, 0}}}, 0}}, {.radius = 0.0125});
   ASSERT_EQ(tubes.size(), 1U);
   EXPECT_EQ(tubes[0].tube.nodes.size(), 3U);
   EXPECT_EQ(tubes[0].tube.edges.size(), 2U);

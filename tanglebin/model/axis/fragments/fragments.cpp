@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -17,7 +18,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Statistics of the points near the end of a fragment.
+/// Statistics of the points near the end of a fragment, at least of the nearest one.
 struct Surroundings {
   std::vector<Vector3d> votes;  ///< m, relative to the end
   Vector3d mean;                ///< of the votes, m, relative to the end
@@ -26,6 +27,20 @@ struct Surroundings {
   Matrix3d normals;             ///< mean of n nᵀ
 };
 
+// The points whose votes are near the end; the one with the nearest vote if none is in reach.
+std::vector<std::size_t> points_near(const Vector3d& end, const std::vector<std::size_t>& points,
+                                     const AxisVotes& votes, double reach) {
+  const auto squared_distance = [&](std::size_t point) {
+    const Vector3d way = votes.votes[point].cast<double>() - end;
+    return way.squaredNorm();
+  };
+  std::vector<std::size_t> near;
+  std::ranges::copy_if(points, std::back_inserter(near),
+                       [&](std::size_t point) { return squared_distance(point) <= reach * reach; });
+  if (near.empty()) near.push_back(*std::ranges::min_element(points, {}, squared_distance));
+  return near;
+}
+
 Surroundings surroundings(const Vector3d& end, const std::vector<std::size_t>& points, const AxisVotes& votes,
                           double reach) {
   std::vector<Vector3d> near;
@@ -33,9 +48,8 @@ Surroundings surroundings(const Vector3d& end, const std::vector<std::size_t>& p
   Matrix3d products = Matrix3d::Zero();
   Vector3d sum_of_normals = Vector3d::Zero();
   Matrix3d products_of_normals = Matrix3d::Zero();
-  for (const std::size_t point : points) {
+  for (const std::size_t point : points_near(end, points, votes, reach)) {
     const Vector3d d = votes.votes[point].cast<double>() - end;
-    if (d.squaredNorm() > reach * reach) continue;
     const Vector3d normal = votes.normals[point].cast<double>();
     near.push_back(d);
     sum += d;
@@ -60,7 +74,8 @@ bool is_cap(const Surroundings& around, double radius, const FragmentSettings& s
 // much of its circumference has a direction. Behind a cap, the tube continues away from the normals.
 Vector3d direction(const Surroundings& around, double radius, const FragmentSettings& settings) {
   if (is_cap(around, radius, settings)) return -around.normal.normalized();
-  const double unit = settings.step * radius;
+  constexpr double unit_of_spread = 0.4;  // radii
+  const double unit = unit_of_spread * radius;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(around.normals - around.spread / (unit * unit));
   return solver.eigenvectors().col(0);
 }

@@ -142,7 +142,8 @@ float suitable_reach(const PixelGrid& grid, double radius, const PatchSettings& 
   }
   if (counts.empty()) return most;
   const float wanted = static_cast<float>(settings.neighbours) / median(std::move(counts));
-  return std::clamp(most * std::sqrt(wanted), least, most);
+  // Not std::clamp(): the settings may have a least reach above the greatest, which then counts.
+  return std::min(std::max(most * std::sqrt(wanted), least), most);
 }
 
 std::vector<std::optional<Patch>> surface_patches(const PixelGrid& grid, float reach, double radius,

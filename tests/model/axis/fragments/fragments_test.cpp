@@ -76,6 +76,20 @@ TEST(Fragments, EndWhereTheVotesEndAndPointOutwards) {
 }
 
 // So short that its centre line has one node.
+TEST(Fragments, HaveEndsWhereNoVoteIsInReach) {
+  AxisVotes votes;
+  add_axis(votes, {-0.1, 0.02, 0.05}, {0.1, 0.02, 0.05});
+  FragmentSettings settings;
+  settings.end_length = 0;
+  const std::vector<Fragment> fragments = find_fragments(votes, radius, false, settings);
+  ASSERT_THAT(fragments, SizeIs(1));
+  ASSERT_THAT(fragments[0].ends, SizeIs(2));
+  for (const FragmentEnd& end : fragments[0].ends) {
+    EXPECT_NEAR(std::abs(end.position.x()), 0.1, radius);
+    EXPECT_NEAR(end.outward.norm(), 1, 1e-9);
+  }
+}
+
 TEST(Fragments, OfOneNodeHaveAnEndOnEitherSide) {
   AxisVotes votes;
   add_axis(votes, {-0.003, 0, 0.05}, {0.003, 0, 0.05});
