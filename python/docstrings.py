@@ -21,11 +21,40 @@ PYTHON_WORDS = [
     (r"\bThrows\b", "Raises"),
     (r"\bthrows\b", "raises"),
     (r"\b(\w+)::(\w+)", r"\1.\2"),
+    (r" \(\w+\.hpp\)", ""),
+    (r"\bas\s+(?:validate\(\w*\)(?:,\s+|\s+and\s+)?)+\s+do(?:es)?\b", "if an argument is not valid"),
+    (r"\s+as\s+validate\(\w*\)\s+has\s+it\b", ""),
+    (r"\bwhat\(\)", "str()"),
+    (r"\bthe\s+data\s+in\s+the\s+stream\b", "the data in the file"),
+    (r"; of a stream, to `directory`", ""),
+    (r"\bfill_dataset\(\)", "generate_dataset()"),
+    (r"\bas\s+check_cloud\(\)", "if the cloud contradicts itself"),
+    (r"\bthe file \(`name`\)", "the file"),
+    (r"\s+without random numbers \(resolve\(\)\)", ""),
+]
+# What only C++ has: a sentence about it is left out.
+ONLY_IN_CPP = [
+    r"`at_step`",
+    r"`at_place`",
+    r"`before_attempt`",
+    r"caller\s+checks\s+the\s+stream",
+    r"The stream may",
+    r"SIGINT",
+    r"Not thread-safe",
+    r"printable\(\)",
+    r"plain member",
 ]
 SCOPE = re.compile(r"^(?:struct|class|enum class)\s+(\w+)[^;]*\{$")
 
 
+def without_sentences_for_cpp(text):
+    sentences = re.findall(r".+?(?:(?<=\.)\s+(?=[A-Z`])|$)", text, re.DOTALL)
+    kept = [sentence for sentence in sentences if not any(re.search(only, sentence) for only in ONLY_IN_CPP)]
+    return "".join(kept).rstrip()
+
+
 def in_python(text):
+    text = without_sentences_for_cpp(text)
     for pattern, replacement in PYTHON_WORDS:
         text = re.sub(pattern, replacement, text)
     return text

@@ -100,8 +100,9 @@ def attribute(name, member):
     kind = replaced(result.group(1), TYPES_OF_RESULTS) if result else "Any"
     lines = ["    @property", f"    def {name}(self) -> {kind}:"] + docstring(member.__doc__, "        ")
     if member.fset:
-        given = re.search(r"arg1: (.*)\) ->|arg0: (.*)\) ->", member.fset.__doc__ or "")
-        kind = replaced((given.group(1) or given.group(2)) if given else "Any", TYPES_OF_ARGUMENTS)
+        given = re.search(r"\((.*)\) -> None", member.fset.__doc__ or "")
+        value = split_arguments(given.group(1))[-1].partition(": ")[2] if given else "Any"
+        kind = replaced(value, TYPES_OF_ARGUMENTS)
         lines += [f"    @{name}.setter", f"    def {name}(self, value: {kind}) -> None: ..."]
     return lines
 

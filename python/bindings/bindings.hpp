@@ -6,6 +6,8 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "docstrings.hpp"
 
@@ -38,6 +40,17 @@ auto without_gil(const Call& call) {
 /// A comment of the headers, and what is to be said of the binding alone.
 inline std::string also(const char* comment, const char* note) {
   return std::string(comment) + "\n\n" + note;
+}
+
+/// A list that can be assigned. Python gets a copy: an item in the object's own memory would dangle once
+/// another list is assigned. So no such list is a def_readwrite().
+template <typename Object, typename Item>
+void def_list(py::class_<Object>& described, const char* name, std::vector<Item> Object::*list,
+              const char* comment) {
+  described.def_property(
+      name, [list](const Object& object) { return object.*list; },
+      [list](Object& object, std::vector<Item> items) { object.*list = std::move(items); },
+      also(comment, "A copy: assign the list to change it.").c_str());
 }
 
 }  // namespace tanglebin::python

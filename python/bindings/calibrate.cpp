@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 
@@ -114,7 +113,7 @@ Calibration calibrate_with_progress(const Recipe& recipe, const fs::path& direct
     if (progress) (*progress)(so_far.evaluations, so_far.most);
   }};
   std::optional<Calibration> calibration = without_gil([&] {
-    const std::lock_guard alone(simulation());
+    const SimulationTurn turn;
     validate(recipe);
     return calibrate(recipe, settings, directory, observer);
   });

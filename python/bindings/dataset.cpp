@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -83,7 +82,7 @@ template <typename Run>
 auto run_over_dataset(const Progress& progress, const Run& run) {
   const RunObserver observer = observer_of(progress);
   return without_gil([&] {
-    const std::lock_guard alone(simulation());
+    const SimulationTurn turn;
     return run(observer);
   });
 }

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -84,7 +83,7 @@ ExperimentSummary experiment(const fs::path& dataset, const ExperimentSettings& 
                              int jobs, const Progress& progress) {
   const RunObserver observer = observer_of(progress);
   ExperimentSummary summary = without_gil([&] {
-    const std::lock_guard alone(simulation());
+    const SimulationTurn turn;
     const Dataset read = read_dataset(dataset);
     return run_experiment(read, settings, wanted ? *wanted : cases(read), directory, jobs, observer);
   });
@@ -199,7 +198,7 @@ template <typename Draw>
 void draw_results(const fs::path& results, const fs::path& dataset, const ExperimentSettings& settings,
                   const Draw& draw_from) {
   without_gil([&] {
-    const std::lock_guard alone(simulation());
+    const SimulationTurn turn;
     const Dataset read = read_dataset(dataset);
     ModelAgain model_again(results, read, settings, ctrl_c_taker());
     draw_from(read, model_again);

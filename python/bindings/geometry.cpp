@@ -1,8 +1,6 @@
 #include <pybind11/operators.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -50,7 +48,14 @@ py::array_t<double> positions(const Tube& tube, const std::vector<std::size_t>& 
   return points;
 }
 
+// What Python has written into a tube's arrays may be anything.
+double valid_length(const Tube& tube) {
+  validate(tube);
+  return total_length(tube);
+}
+
 std::vector<py::array_t<double>> centre_lines(const Tube& tube) {
+  validate(tube);
   const std::vector<std::vector<std::size_t>> edges = edges_at_nodes(tube);
   std::vector<py::array_t<double>> lines;
   for (std::size_t node = 0; node < edges.size(); ++node) {
@@ -61,24 +66,6 @@ std::vector<py::array_t<double>> centre_lines(const Tube& tube) {
     }
   }
   return lines;
-}
-
-bool is_tree(const Tube& tube) {
-  if (tube.edges.size() + 1 != tube.nodes.size()) return false;
-  const std::vector<std::vector<std::size_t>> edges = edges_at_nodes(tube);
-  std::vector<bool> is_reached(tube.nodes.size());
-  std::vector<std::size_t> next{0};
-  while (!next.empty()) {
-    const std::size_t node = next.back();
-    next.pop_back();
-    if (is_reached[node]) continue;
-    is_reached[node] = true;
-    for (const std::size_t edge : edges[node]) {
-      next.push_back(tube.edges[edge].from);
-      next.push_back(tube.edges[edge].to);
-    }
-  }
-  return std::ranges::all_of(is_reached, [](bool reached) { return reached; });
 }
 
 Indices chain_of(std::size_t nodes) {
@@ -97,25 +84,15 @@ Tube tube_of(const py::array_t<double, py::array::c_style | py::array::forcecast
              int id, double mass, const std::optional<Indices>& edges, bool flat_ends) {
   expect_shape(nodes.ndim() == 2 && nodes.shape(1) == 3 && nodes.shape(0) >= 2, nodes, "nodes",
                "n x 3, of two nodes or more");
-  if (!(std::isfinite(radius) && radius > 0))
-    throw InputError({"", 0, "radius"}, std::string(py::str(py::float_(radius))),
-                     "a positive number of metres");
   const auto count = static_cast<std::size_t>(nodes.shape(0));
   Tube tube{.id = id, .radius = radius, .mass = mass, .nodes = {}, .edges = {}, .flat_ends = flat_ends};
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d position(nodes.at(i, 0), nodes.at(i, 1), nodes.at(i, 2));
-    if (!position.allFinite())
-      throw InputError({"", 0, "nodes"}, "a position that is not finite", "finite numbers");
-    tube.nodes.push_back({edges ? static_cast<int>(i) + 1 : id_in_chain(i, count), position});
+    tube.nodes.push_back({edges ? static_cast<int>(i) + 1 : id_in_chain(i, count),
+                          {nodes.at(i, 0), nodes.at(i, 1), nodes.at(i, 2)}});
   }
-  for (const auto& [from, to] : edges.value_or(chain_of(count))) {
-    if (from >= count || to >= count)
-      throw InputError({"", 0, "edges"}, std::to_string(std::max(from, to)),
-                       fmt::format("a node's index from 0 to {}", count - 1));
+  for (const auto& [from, to] : edges.value_or(chain_of(count)))
     tube.edges.push_back({from, to, static_cast<int>(tube.edges.size()) + 1});
-  }
-  if (!is_tree(tube))
-    throw InputError({"", 0, "edges"}, "no tree", "edges that connect all nodes without a loop");
+  validate(tube);
   return tube;
 }
 
@@ -179,8 +156,7 @@ void bind_tube(py::module_& module) {
           "centre_lines", &centre_lines,
           "The centre line, m, world frame: an array k x 3 for each run of edges between ends and "
           "junctions, which is one for a chain. Copies.")
-      .def_property_readonly("length", py::overload_cast<const Tube&>(&total_length),
-                             doc::geometry::total_length)
+      .def_property_readonly("length", &valid_length, doc::geometry::total_length)
       .def(
           "transformed",
           [](Tube tube, const py::array_t<double>& motion) {
@@ -191,7 +167,7 @@ void bind_tube(py::module_& module) {
       .def(py::pickle(&tube_state, &tube_from))
       .def("__repr__", [](const Tube& tube) {
         return fmt::format("<Tube {}: {} nodes, radius {} m, length {:.4g} m>", tube.id, tube.nodes.size(),
-                           tube.radius, total_length(tube));
+                           tube.radius, valid_length(tube));
       });
 
   py::class_<TubeMesh>(module, "TubeMesh", tanglebin::doc::io::TubeMesh)
@@ -200,14 +176,14 @@ void bind_tube(py::module_& module) {
           "vertices",
           [](const py::object& self) {
             auto& vertices = self.cast<TubeMesh&>().vertices;
-            return rows(vertices, vertices.front().data(), 3, self);
+            return rows(vertices, vertices.empty() ? nullptr : vertices.front().data(), 3, self);
           },
           "n x 3 float32, m; in the mesh's memory.")
       .def_property_readonly(
           "triangles",
           [](const py::object& self) {
             auto& triangles = self.cast<TubeMesh&>().triangles;
-            return rows(triangles, triangles.front().data(), 3, self);
+            return rows(triangles, triangles.empty() ? nullptr : triangles.front().data(), 3, self);
           },
           "The indices of each triangle's vertices, m x 3 uint32; in the mesh's memory.");
   module.def("mesh_of", &mesh_of, py::arg("tube"), tanglebin::doc::io::mesh_of);

@@ -1,11 +1,18 @@
 #include "long_work.hpp"
 
 #include <csignal>
+#include <mutex>
+#include <stdexcept>
 
 #include "tanglebin/runs/workers.hpp"
 
 namespace tanglebin::python {
 namespace {
+
+constexpr std::chrono::milliseconds between_signals{50};
+
+std::timed_mutex simulation;
+thread_local bool is_simulating = false;
 
 void take_signals() {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -14,10 +21,9 @@ void take_signals() {
 }  // namespace
 
 void Reporter::report(double done, double total) {
-  constexpr std::chrono::milliseconds interval{50};
   const Clock::time_point now = Clock::now();
   if (now < next_) return;
-  next_ = now + interval;
+  next_ = now + between_signals;
   const py::gil_scoped_acquire acquired;
   take_signals();
   if (progress_) (*progress_)(done, total);
@@ -42,9 +48,19 @@ void pass_on_signal() {
   take_signals();
 }
 
-std::mutex& simulation() {
-  static std::mutex mutex;
-  return mutex;
+SimulationTurn::SimulationTurn() {
+  if (is_simulating)
+    throw std::runtime_error("a simulation's progress function cannot start another simulation");
+  while (!simulation.try_lock_for(between_signals)) {
+    const py::gil_scoped_acquire acquired;
+    take_signals();
+  }
+  is_simulating = true;
+}
+
+SimulationTurn::~SimulationTurn() {
+  is_simulating = false;
+  simulation.unlock();
 }
 
 }  // namespace tanglebin::python

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <functional>
-#include <mutex>
 #include <optional>
 
 #include "bindings.hpp"
@@ -38,7 +37,15 @@ RunObserver observer_of(const Progress& progress);
 /// SIGINT, this throws KeyboardInterrupt.
 void pass_on_signal();
 
-/// Only one simulation at a time: the solver has one random generator per process.
-std::mutex& simulation();
+/// The turn of a simulation: the solver has one random generator per process, so there is one at a time. Made
+/// without the GIL. Waits for those of other threads, and takes Ctrl-C meanwhile as Reporter does. Throws
+/// std::runtime_error in the progress function of a simulation, which would wait for itself.
+class SimulationTurn {
+public:
+  SimulationTurn();
+  ~SimulationTurn();
+  SimulationTurn(const SimulationTurn&) = delete;
+  SimulationTurn& operator=(const SimulationTurn&) = delete;
+};
 
 }  // namespace tanglebin::python

@@ -118,7 +118,8 @@ void bind_model(py::module_& module) {
         return without_gil([&] { return model_tubes(cloud, known, settings, ctrl_c_taker()); });
       },
       py::arg("cloud"), py::arg("known"), py::arg_v("settings", ModelSettings{}, "ModelSettings()"),
-      also(doc::model::model_tubes, "Ctrl-C raises KeyboardInterrupt there.").c_str());
+      also(doc::model::model_tubes, "Ctrl-C raises KeyboardInterrupt between two steps of the method.")
+          .c_str());
   module.def("tubes_json", &tubes_json, py::arg("model"), doc::model::tubes_json);
 }
 

@@ -80,7 +80,8 @@ void bind_parts(py::module_& module) {
         return scanner_with(preset, settings, "settings");
       },
       py::arg("preset"), py::arg("settings") = std::vector<std::string>{}, doc::recipe::scanner_with);
-  py::class_<SetRecipe>(module, "SetRecipe", doc::recipe::SetRecipe)
+  py::class_<SetRecipe> described(module, "SetRecipe", doc::recipe::SetRecipe);
+  described
       .def(py::init([](const std::string& name, const std::vector<int>& tubes, int cases,
                        const std::vector<TubeSpec>& kinds) {
              return SetRecipe{.name = name, .tubes = tubes, .cases = cases, .kinds = kinds};
@@ -88,15 +89,15 @@ void bind_parts(py::module_& module) {
            py::arg("name"), py::arg("tubes"), py::arg("cases") = SetRecipe{}.cases,
            py::arg_v("kinds", SetRecipe{}.kinds, "[TubeSpec()]"))
       .def_readwrite("name", &SetRecipe::name, doc::recipe::SetRecipe_name)
-      .def_readwrite("tubes", &SetRecipe::tubes, doc::recipe::SetRecipe_tubes)
-      .def_readwrite("cases", &SetRecipe::cases, doc::recipe::SetRecipe_cases)
-      .def_readwrite("kinds", &SetRecipe::kinds, doc::recipe::SetRecipe_kinds)
-      .def_readwrite("weights", &SetRecipe::weights, doc::recipe::SetRecipe_weights);
+      .def_readwrite("cases", &SetRecipe::cases, doc::recipe::SetRecipe_cases);
+  def_list(described, "tubes", &SetRecipe::tubes, doc::recipe::SetRecipe_tubes);
+  def_list(described, "kinds", &SetRecipe::kinds, doc::recipe::SetRecipe_kinds);
+  def_list(described, "weights", &SetRecipe::weights, doc::recipe::SetRecipe_weights);
 }
 
 void bind_recipes(py::module_& module) {
-  py::class_<Recipe>(module, "Recipe", doc::recipe::Recipe)
-      .def(py::init(&recipe_from), py::arg("toml"), "Reads the text of a recipe (docs/formats.md).")
+  py::class_<Recipe> described(module, "Recipe", doc::recipe::Recipe);
+  described.def(py::init(&recipe_from), py::arg("toml"), "Reads the text of a recipe (docs/formats.md).")
       .def("toml", &recipe_text, "The text of the recipe, resolved: every value, presets spelled out.")
       .def_readwrite("seed", &Recipe::seed, "the seed of the dataset")
       .def_readwrite("attempts", &Recipe::attempts, doc::recipe::Recipe_attempts)
@@ -105,10 +106,8 @@ void bind_recipes(py::module_& module) {
                      "the first scanner's; may be empty if it is the only one")
       .def_readwrite("camera", &Recipe::camera, doc::recipe::Recipe_camera)
       .def_readwrite("sensor", &Recipe::sensor, "of the first scanner")
-      .def_readwrite("further_scanners", &Recipe::further_scanners, doc::recipe::Recipe_further_scanners)
       .def_readwrite("settle", &Recipe::settle, tanglebin::doc::settle::SettleSettings)
       .def_readwrite("output", &Recipe::output, doc::recipe::OutputSettings)
-      .def_readwrite("sets", &Recipe::sets, "A list of SetRecipe; a copy, so assign it to change it.")
       .def_property_readonly(
           "is_random", [](const Recipe& recipe) { return !recipe.random.empty(); },
           "Whether cases draw numbers of their own; resolved() gives the recipe of a case.")
@@ -116,13 +115,18 @@ void bind_recipes(py::module_& module) {
           "cases", [](const Recipe& recipe) { return cases(recipe); }, doc::recipe::cases)
       .def(
           "resolved",
-          [](const Recipe& recipe, const CaseId& id) { return resolve(recipe, id, draw(recipe, id)); },
+          [](const Recipe& recipe, const CaseId& id) {
+            validate(recipe);
+            return resolve(recipe, id, draw(recipe, id));
+          },
           py::arg("id"), doc::recipe::resolve)
       .def(
           "validate", [](const Recipe& recipe) { validate(recipe); }, doc::recipe::validate)
       .def("doubts", &doubts, doc::recipe::doubts)
       .def(py::self == py::self)
       .def(py::pickle(&recipe_text, &recipe_from));
+  def_list(described, "further_scanners", &Recipe::further_scanners, doc::recipe::Recipe_further_scanners);
+  def_list(described, "sets", &Recipe::sets, "the sets of cases");
   module.def(
       "read_recipe", [](const std::filesystem::path& file) { return read_recipe(file); }, py::arg("file"),
       doc::recipe::read_recipe);
@@ -152,7 +156,7 @@ void bind_simulate(py::module_& module) {
         validate(dataset);
         return without_gil([&] {
           const Recipe recipe = resolve(dataset, id, draw(dataset, id));
-          const std::lock_guard alone(simulation());
+          const SimulationTurn turn;
           Reporter reporter(progress);
           int attempts = -1;
           return simulate(

@@ -92,7 +92,7 @@ void bind_measurements(py::module_& module) {
   resolver(
       "resolve",
       [](const Scene& scene, const PointCloud& cloud) { return resolve(scene, cloud, ctrl_c_taker()); },
-      also(doc::scene::resolve, "Ctrl-C raises KeyboardInterrupt there.").c_str());
+      also(doc::scene::resolve, "Ctrl-C raises KeyboardInterrupt while it estimates a radius.").c_str());
   resolver("resolve_without_tubes", &resolve_without_tubes, doc::scene::resolve_without_tubes);
 }
 
@@ -108,18 +108,19 @@ void bind_known_scene(py::module_& module) {
       .def_readwrite("to_node", &Segment::to, tanglebin::doc::geometry::Segment_to)
       .def_readwrite("length", &Segment::length, tanglebin::doc::geometry::Segment_length)
       .def(py::self == py::self);
-  py::class_<TubeKind>(module, "TubeKind", doc::TubeKind)
-      .def(py::init([](double radius, const SegmentTree& segments, double length_min, bool flat_ends) {
+  py::class_<TubeKind> kind(module, "TubeKind", doc::TubeKind);
+  kind.def(py::init([](double radius, const SegmentTree& segments, double length_min, bool flat_ends) {
              return TubeKind{radius, segments, length_min, flat_ends};
            }),
            py::arg("radius") = TubeKind{}.radius, py::arg_v("segments", TubeKind{}.segments, "[Segment()]"),
            py::arg("length_min") = 0.0, py::arg("flat_ends") = false)
       .def_readwrite("radius", &TubeKind::radius, doc::TubeKind_radius)
-      .def_readwrite("segments", &TubeKind::segments, doc::TubeKind_segments)
       .def_readwrite("length_min", &TubeKind::length_min, doc::TubeKind_length_min)
       .def_readwrite("flat_ends", &TubeKind::flat_ends, doc::TubeKind_flat_ends)
       .def_property_readonly("length", &TubeKind::length, doc::TubeKind_length);
-  py::class_<KnownScene>(module, "KnownScene", doc::KnownScene)
+  def_list(kind, "segments", &TubeKind::segments, doc::TubeKind_segments);
+  py::class_<KnownScene> scene(module, "KnownScene", doc::KnownScene);
+  scene
       .def(py::init([](const Support& support, const Camera& camera, const std::vector<TubeKind>& kinds) {
              KnownScene known{support, camera, kinds};
              validate(known);
@@ -127,10 +128,14 @@ void bind_known_scene(py::module_& module) {
            }),
            py::arg("support"), py::arg("camera"), py::arg_v("kinds", KnownScene{}.kinds, "[TubeKind()]"))
       .def_readwrite("support", &KnownScene::support, tanglebin::doc::geometry::Support)
-      .def_readwrite("camera", &KnownScene::camera, doc::KnownScene_camera)
-      .def_readwrite("kinds", &KnownScene::kinds, doc::KnownScene_kinds);
+      .def_readwrite("camera", &KnownScene::camera, doc::KnownScene_camera);
+  def_list(scene, "kinds", &KnownScene::kinds, doc::KnownScene_kinds);
   module.def(
-      "known_scene", [](const Recipe& recipe, const CaseId& id) { return known_scene(recipe, id); },
+      "known_scene",
+      [](const Recipe& recipe, const CaseId& id) {
+        validate(recipe);
+        return known_scene(recipe, id);
+      },
       py::arg("recipe"), py::arg("id"), tanglebin::doc::experiment::known_scene);
   module.def("scene_of", &scene_of, py::arg("known"), tanglebin::doc::scene::scene_of);
 }

@@ -1,7 +1,6 @@
 #include <pybind11/operators.h>
 
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,7 +66,8 @@ void bind_drawing(py::module_& module) {
       .def_readwrite("bend_radius", &Piece::bend_radius, doc::Piece_bend_radius)
       .def_readwrite("twist", &Piece::twist, doc::Piece_twist)
       .def(py::self == py::self);
-  py::class_<TubeSpec>(module, "TubeSpec", doc::TubeSpec)
+  py::class_<TubeSpec> described(module, "TubeSpec", doc::TubeSpec);
+  described
       .def(py::init([](double radius, double mass, double density, const std::vector<SegmentSpec>& segments,
                        const std::vector<Piece>& pieces, bool flat_ends) {
              const TubeSpec spec{radius, mass, density, segments, pieces, flat_ends};
@@ -81,12 +81,10 @@ void bind_drawing(py::module_& module) {
       .def_readwrite("radius", &TubeSpec::radius, doc::TubeSpec_radius)
       .def_readwrite("mass", &TubeSpec::mass, doc::TubeSpec_mass)
       .def_readwrite("density", &TubeSpec::density, doc::TubeSpec_density)
-      .def_readwrite("segments", &TubeSpec::segments,
-                     "A list of SegmentSpec; a copy, so assign it to change it.")
-      .def_readwrite("pieces", &TubeSpec::pieces,
-                     "A list of Piece, which makes a bar; a copy, so assign it to change it.")
       .def_readwrite("flat_ends", &TubeSpec::flat_ends, doc::TubeSpec_flat_ends)
       .def(py::self == py::self);
+  def_list(described, "segments", &TubeSpec::segments, "of a hose or tree");
+  def_list(described, "pieces", &TubeSpec::pieces, "of a bar, in place of segments");
   module.def(
       "draw_tube",
       [](Rng& rng, const TubeSpec& spec, int id) {
@@ -140,7 +138,7 @@ void bind_settle(py::module_& module) {
         validate(bin);
         validate(settings);
         return without_gil([&] {
-          const std::lock_guard alone(simulation());
+          const SimulationTurn turn;
           Reporter reporter(progress);
           return settle(tubes, bin, settings, seed,
                         [&](double simulated) { reporter.report(simulated, settings.time_limit); });
@@ -159,7 +157,7 @@ void bind_settle(py::module_& module) {
         validate(bin);
         validate(settings);
         return without_gil([&] {
-          const std::lock_guard alone(simulation());
+          const SimulationTurn turn;
           return fault_of_heap(tubes, bin, settings);
         });
       },

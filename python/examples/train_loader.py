@@ -20,22 +20,25 @@ def sample_of(cloud):
 
 
 class DrawnScenes:
-    """Scenes of a recipe's first set, drawn when they are asked for. There are as many as you like."""
+    """Scenes of a recipe's first set, drawn when they are asked for. There are as many as you like.
+
+    If the set lists several numbers of tubes, they take turns.
+    """
 
     def __init__(self, recipe, scenes):
-        self.recipe = recipe
-        self.scenes = scenes
+        self.recipe = tanglebin.Recipe(recipe.toml())
+        first, *others = self.recipe.sets
+        first.cases = scenes
+        self.recipe.sets = [first, *others]
+        of_first = [id for id in self.recipe.cases if id.set == first.name]
+        self.ids = sorted(of_first, key=lambda id: id.number)[:scenes]
 
     def __len__(self):
-        return self.scenes
+        return len(self.ids)
 
     def __getitem__(self, i):
-        if not 0 <= i < self.scenes:
-            raise IndexError(i)
-        numbers = self.recipe.sets[0].tubes
-        tubes = numbers[i % len(numbers)]
-        scene = tanglebin.simulate(self.recipe, tanglebin.CaseId(self.recipe.sets[0].name, tubes, i // len(numbers) + 1))
-        return sample_of(tanglebin.cloud_from_scan(scene.scan, tubes=tubes))
+        scene = tanglebin.simulate(self.recipe, self.ids[i])
+        return sample_of(tanglebin.cloud_from_scan(scene.scan, tubes=self.ids[i].tubes))
 
 
 class SavedScenes:

@@ -6,5 +6,6 @@ null. Poses are 4 x 4 matrices, points n x 3, images h x w.
 """
 
 from tanglebin._core import *  # noqa: F403
-from tanglebin._core import __version__
-from tanglebin._dataset import Case, Dataset
+from tanglebin._core import __version__ as __version__
+from tanglebin._dataset import Case as Case
+from tanglebin._dataset import Dataset as Dataset

@@ -151,6 +151,9 @@ def test_depths_become_points_in_the_cameras_frame():
     cloud = tanglebin.cloud_from_depths(depths, tanglebin.Intrinsics(5, 3, 10, 10, 2, 1))
     points = cloud.points.reshape(cloud.height, cloud.width, 3)
     np.testing.assert_allclose(points[0, 4], [0.4, -0.2, 2], atol=1e-6)
+    depths[0, :3] = [0, -1, np.inf]
+    nothing = tanglebin.cloud_from_depths(depths, tanglebin.Intrinsics(5, 3, 10, 10, 2, 1)).points[:3]
+    assert np.isnan(nothing).all()
     assert '"width": 1920' in tanglebin.camera_json(tanglebin.camera_preset("paper"))
 
 

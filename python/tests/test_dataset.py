@@ -159,3 +159,13 @@ def test_what_is_no_dataset_is_refused(tmp_path, recipe):
     (tmp_path / "file").write_text("")
     with pytest.raises(tanglebin.InputError, match=str(tmp_path)):
         tanglebin.generate_dataset(recipe, tmp_path)
+
+
+@pytest.mark.parametrize("case", [("A", 21, 1), ("A", 3, 99), ("A", 3, -1), ("Z", 1, 1)])
+def test_a_case_that_the_recipe_does_not_have_is_refused(case, recipe, dataset_directory, tmp_path):
+    wanted = [tanglebin.CaseId(*case)]
+    with pytest.raises(tanglebin.InputError, match="wanted: found .*, expected a case of the recipe"):
+        tanglebin.generate_dataset(recipe, tmp_path / "new", wanted=wanted)
+    assert not (tmp_path / "new").exists()
+    with pytest.raises(tanglebin.InputError, match="wanted: found .*, expected a case of the recipe"):
+        tanglebin.verify_dataset(dataset_directory, wanted=wanted)

@@ -60,6 +60,13 @@ def test_loaders_are_sequences_without_torch(recipe, dataset_directory):
         drawn[6]
 
 
+def test_scenes_that_draw_their_number_of_tubes_are_loaded(source):
+    varied = tanglebin.read_recipe(source / "recipes" / "varied.toml")
+    drawn = example("train_loader").DrawnScenes(varied, scenes=3)
+    assert [id.number for id in drawn.ids] == [1, 2, 3] and drawn.ids == varied.cases[:3]
+    assert set(np.unique(drawn[1]["labels"])) <= set(range(1, drawn.ids[1].tubes + 1))
+
+
 @pytest.mark.parametrize("kind", ["DrawnScenes", "SavedScenes"])
 def test_torch_loads_the_same_with_any_number_of_workers(kind, recipe, dataset_directory):
     pytest.importorskip("torch", reason="PyTorch is not installed")

@@ -43,15 +43,61 @@ def test_nodes_and_edges_are_in_the_tubes_memory():
     "arguments, message",
     [
         (dict(nodes=[[0, 0]], radius=0.01), r"nodes: found an array of shape \(1, 2\), expected n x 3"),
-        (dict(nodes=[[0, 0, 0], [0, 0, np.nan]], radius=0.01), "nodes: found a position that is not finite"),
-        (dict(nodes=[[0, 0, 0], [0, 0, 1]], radius=-1), "radius: found -1.0, expected a positive number"),
-        (dict(nodes=[[0, 0, 0], [0, 0, 1]], radius=1, edges=[(0, 2)]), "edges: found 2, expected a node's index"),
-        (dict(nodes=[[0, 0, 0], [0, 0, 1]], radius=1, edges=[(0, 1), (1, 0)]), "edges: found no tree"),
+        (dict(nodes=[[0, 0, 0], [0, 0, np.nan]], radius=0.01), "nodes of tube 1: found a position that is not finite"),
+        (dict(nodes=[[0, 0, 0], [0, 0, 1]], radius=-1), "radius of tube 1: found -1, expected a positive number"),
+        (dict(nodes=[[0, 0, 0], [0, 0, 1]], radius=1, edges=[(0, 2)]), "edges of tube 1: found 2, expected the index"),
+        (dict(nodes=[[0, 0, 0], [0, 0, 1]], radius=1, edges=[(0, 1), (1, 0)]), "edges of tube 1: found no tree"),
     ],
 )
 def test_what_is_no_tube_is_refused(arguments, message):
     with pytest.raises(tanglebin.InputError, match=message):
         tanglebin.Tube(**arguments)
+
+
+def spoilt(**members):
+    tube = tanglebin.Tube([[0, 0, 0.2], [0.1, 0, 0.2]], 0.01, mass=0.1)
+    for name, value in members.items():
+        if name in ("nodes", "edges"):
+            getattr(tube, name)[0, 0] = value
+        else:
+            setattr(tube, name, value)
+    return tube
+
+
+@pytest.mark.parametrize("members", [dict(nodes=np.nan), dict(radius=0), dict(radius=np.nan), dict(edges=10**12)])
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda tube: tube.length,
+        lambda tube: tube.centre_lines,
+        lambda tube: tanglebin.mesh_of(tube),
+        lambda tube: tanglebin.settle([tube]),
+        lambda tube: tanglebin.fault_of_heap([tube]),
+        lambda tube: tanglebin.spawn(tanglebin.Rng(1), [tube], tanglebin.Bin()),
+        lambda tube: tanglebin.score_tubes([tube], [a_bent_tube()]),
+        lambda tube: tanglebin.scan([tube], tanglebin.Bin(), tanglebin.camera_preset("paper")),
+        lambda tube: tanglebin.largest_tube_overlap([tube]),
+        lambda tube: tanglebin.largest_bin_overlap([tube], tanglebin.Bin()),
+        lambda tube: tanglebin.write_configuration("/dev/null", [tube]),
+    ],
+)
+def test_a_tube_that_was_spoilt_is_refused_wherever_it_goes(use, members):
+    (field,) = members
+    with pytest.raises(tanglebin.InputError, match=f"{field} of tube 1"):
+        use(spoilt(**members))
+
+
+@pytest.mark.parametrize("members", [dict(nodes=np.nan), dict(edges=10**12)])
+def test_a_model_that_was_spoilt_is_not_scored(members):
+    with pytest.raises(tanglebin.InputError, match=f"{next(iter(members))} of tube 1"):
+        tanglebin.score_tubes([a_bent_tube()], [spoilt(**members)])
+
+
+@pytest.mark.parametrize("mass", [0, np.nan, 1e300, 1e-320])
+def test_a_mass_that_cannot_be_simulated_is_refused(mass):
+    for use in (tanglebin.settle, tanglebin.fault_of_heap):
+        with pytest.raises(tanglebin.InputError, match="mass of tube 1"):
+            use([spoilt(mass=mass)])
 
 
 def test_tubes_move_as_rigid_bodies():

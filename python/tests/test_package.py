@@ -41,7 +41,9 @@ def test_one_text_serves_both_languages(source):
 
 def test_docstrings_are_those_of_python():
     assert "Raises InputError" in tanglebin.read_cloud.__doc__ and "Throws" not in tanglebin.read_cloud.__doc__
-    assert "std::" not in "".join(getattr(tanglebin, name).__doc__ or "" for name in PUBLIC)
+    texts = "".join(getattr(tanglebin, name).__doc__ or "" for name in PUBLIC)
+    only_in_cpp = ["std::", "at_step", "at_place", "before_attempt", "checks the stream", "SIGINT", ".hpp", "validate("]
+    assert [words for words in only_in_cpp if words in texts] == []
 
 
 def run_mypy(*arguments):
@@ -73,3 +75,22 @@ def test_a_type_checker_finds_the_mistakes_in_a_program(tmp_path):
     result = run_mypy("mypy", "--cache-dir", str(tmp_path), str(program))
     lines = [line.split(":")[1] for line in result.stdout.splitlines() if ": error:" in line]
     assert lines == ["5", "6"], result.stdout + result.stderr
+
+
+def test_a_strict_type_checker_finds_nothing_in_a_right_program(tmp_path):
+    program = tmp_path / "program.py"
+    program.write_text(
+        "import numpy\n"
+        "import tanglebin\n"
+        "camera = tanglebin.camera_preset('paper')\n"
+        "camera.pose = numpy.eye(4)\n"
+        "cloud = tanglebin.PointCloud(numpy.zeros((3, 3)))\n"
+        "cloud.labels = numpy.array([1, 2, 3])\n"
+        "for case in tanglebin.Dataset('dataset'):\n"
+        "    points: int = len(case.cloud)\n"
+        "recipe = tanglebin.Dataset('dataset').recipe\n"
+        "recipe.sets = recipe.sets[:1]\n"
+        "print(tanglebin.__version__)\n"
+    )
+    result = run_mypy("mypy", "--strict", "--cache-dir", str(tmp_path), str(program))
+    assert result.returncode == 0, result.stdout + result.stderr

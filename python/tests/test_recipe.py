@@ -83,3 +83,40 @@ def test_output_settings_can_be_changed():
 def test_a_case_that_is_not_in_the_recipe_is_refused(recipe):
     with pytest.raises(tanglebin.InputError):
         tanglebin.simulate(recipe, tanglebin.CaseId("B", 3, 1))
+
+
+def test_lists_are_copies_that_are_assigned_to_change_them(recipe, source):
+    made = tanglebin.Recipe(recipe.toml())
+    sets = made.sets
+    sets[0].cases = 9
+    assert made.sets[0].cases == 3
+    sets.append(tanglebin.SetRecipe("B", [2], 1, sets[0].kinds))
+    made.sets = sets
+    made.sets = made.sets * 50  # whatever becomes of the recipe's list, its old items stay as they were
+    assert (sets[0].name, sets[0].cases, sets[1].name) == ("A", 9, "B")
+    kinds = sets[0].kinds
+    segments = kinds[0].segments
+    segments[0].length = 0.3
+    kinds[0].segments = segments
+    sets[0].kinds = kinds
+    assert sets[0].kinds[0].segments[0].length == 0.3 and made.sets[0].kinds[0].segments[0].length == 0.5
+    realistic = tanglebin.read_recipe(source / "recipes" / "realistic.toml")
+    scanners = realistic.further_scanners
+    name = scanners[0].name
+    realistic.further_scanners = []
+    assert scanners[0].name == name
+
+
+def test_a_number_that_cases_draw_cannot_be_set_in_code(source):
+    varied = tanglebin.read_recipe(source / "recipes" / "varied.toml")
+    sets = varied.sets
+    sets[0].cases = 2
+    varied.sets = sets
+    varied.validate()
+    kinds = sets[0].kinds
+    kinds[0].radius = 0.005
+    sets[0].kinds = kinds
+    varied.sets = sets
+    for use in (varied.resolved, lambda id: tanglebin.simulate(varied, id), lambda id: tanglebin.known_scene(varied, id)):
+        with pytest.raises(tanglebin.InputError, match=r"set\[0\].tube\[0\].radius: found 0.005.*cannot be set in code"):
+            use(varied.cases[0])

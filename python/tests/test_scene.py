@@ -53,6 +53,22 @@ def test_a_known_scene_is_made_in_code():
         tanglebin.KnownScene(tanglebin.Support(), tanglebin.camera_preset("paper"), [tanglebin.TubeKind(radius=-1)])
 
 
+def test_the_kinds_of_a_known_scene_are_copies():
+    known = tanglebin.KnownScene(tanglebin.Support(), tanglebin.camera_preset("paper"), [tanglebin.TubeKind(0.01)])
+    kind = known.kinds[0]
+    segment = kind.segments[0]
+    known.kinds = [tanglebin.TubeKind(0.02)] * 100
+    kind.segments = [tanglebin.Segment(length=0.2)] * 100
+    assert kind.radius == 0.01 and segment == tanglebin.Segment()
+
+
+def test_the_known_scene_of_a_random_recipe_has_the_numbers_of_the_case(source):
+    varied = tanglebin.read_recipe(source / "recipes" / "varied.toml")
+    case = varied.cases[1]
+    known = tanglebin.known_scene(varied, case)
+    assert known.camera == varied.resolved(case).camera != varied.camera
+
+
 def test_a_camera_file_is_read(scene, tmp_path):
     (tmp_path / "camera.json").write_text(tanglebin.camera_json(scene.scan.camera))
     camera = tanglebin.read_camera_file(tmp_path / "camera.json")

@@ -129,6 +129,32 @@ def test_two_threads_settle_the_same_heap():
             np.testing.assert_array_equal(tube.nodes, expected.nodes)
 
 
+def test_a_simulation_cannot_start_in_the_progress_of_another():
+    with pytest.raises(RuntimeError, match="cannot start another simulation"):
+        tanglebin.settle(**long_settling(), progress=lambda done, total: tanglebin.settle(drawn_tubes(1)))
+
+
+def test_a_simulation_that_waits_for_its_turn_takes_ctrl_c():
+    has_begun, is_enough = threading.Event(), threading.Event()
+
+    def progress(done, total):
+        has_begun.set()
+        if is_enough.is_set():
+            raise InterruptedError
+
+    def settle_in_thread():
+        with pytest.raises(InterruptedError):
+            tanglebin.settle(**long_settling(), progress=progress)
+
+    other = threading.Thread(target=settle_in_thread)
+    other.start()
+    has_begun.wait()
+    with Interruption(at_the_latest=0.2), pytest.raises(KeyboardInterrupt):
+        tanglebin.settle(drawn_tubes(1))  # returns only by Ctrl-C: the other goes on until it is told to end
+    is_enough.set()
+    other.join()
+
+
 def test_every_scanner_scans(scene):
     for name in ["paper", "gaussian", "zivid-one-plus-l", "kinect-v1"]:
         sensor = tanglebin.sensor_preset(name)
@@ -177,6 +203,8 @@ def test_a_scan_becomes_clouds_and_images(scene):
     part = np.s_[window.top : window.top + window.height, window.left : window.left + window.width]
     np.testing.assert_array_equal(depths[part], scan.depths)
     np.testing.assert_array_equal(labels[part], scan.labels)
+    with pytest.raises(tanglebin.InputError, match="tubes: found 2, expected at least 3, the largest label"):
+        tanglebin.cloud_from_scan(scene.scan, tubes=2)
 
 
 def test_tubes_lie_on_a_table(scene):

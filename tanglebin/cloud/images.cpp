@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "tanglebin/base/error.hpp"
@@ -25,6 +27,10 @@ std::vector<double> slopes(int pixels, double focal_length, double principal_poi
   return result;
 }
 
+double measured(double depth) {
+  return std::isfinite(depth) && depth > 0 ? depth : std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
 
 PointCloud cloud_from_depths(const DepthImage& image, const Intrinsics& intrinsics) {
@@ -37,7 +43,7 @@ PointCloud cloud_from_depths(const DepthImage& image, const Intrinsics& intrinsi
   cloud.points.reserve(image.depths.size());
   for (std::size_t row = 0; row < cloud.height; ++row) {
     for (std::size_t column = 0; column < cloud.width; ++column) {
-      const double depth = image.depths[row * cloud.width + column];
+      const double depth = measured(image.depths[row * cloud.width + column]);
       cloud.points.emplace_back(
           Eigen::Vector3d(across[column] * depth, down[row] * depth, depth).cast<float>());
     }

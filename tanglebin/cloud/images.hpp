@@ -23,7 +23,8 @@ struct LabelImage {
 };
 
 /// The organized cloud of a depth image: a point for each pixel, m, in the camera's frame, NaN where nothing
-/// was measured. Throws InputError unless the image has the camera's size.
+/// was measured: where the depth is not a finite positive number. Throws InputError unless the image has the
+/// camera's size.
 PointCloud cloud_from_depths(const DepthImage& image, const Intrinsics& intrinsics);
 
 }  // namespace tanglebin

@@ -84,6 +84,7 @@ FillSummary generate_cases(FillRequest request, const RunObserver& observer) {
 FillSummary generate_dataset(const Recipe& recipe, const std::vector<CaseId>& wanted,
                              const std::filesystem::path& directory, int jobs, const RunObserver& observer,
                              const std::optional<Shard>& shard) {
+  expect_cases(recipe, wanted);
   return generate_cases(
       {.recipe = recipe, .wanted = wanted, .directory = directory, .shard = shard, .jobs = jobs}, observer);
 }

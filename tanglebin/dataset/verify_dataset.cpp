@@ -63,6 +63,7 @@ public:
     summary_.recipe = std::move(recipe);
     summary_.is_in_progress = !in_use_.empty();
     const std::vector<CaseId> all = cases(summary_.recipe);
+    if (settings.wanted) expect_cases(summary_.recipe, *settings.wanted);
     for (const CaseId& id : all) state_.try_emplace(id);
     for (const CaseId& id : settings.wanted.value_or(all)) state_.at(id).is_wanted = true;
     read_manifest();

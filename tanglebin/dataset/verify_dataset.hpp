@@ -42,7 +42,8 @@ struct VerifySummary {
 /// listed; broken formats; clouds whose number of points or labels does not match; tubes that overlap or
 /// stick out of the bin more than the recipe allows; a digest that does not match the manifest; journals of
 /// runs that have ended. Only wanted cases are checked and missed. While runs are in progress, it checks what
-/// was finished when it began, and misses nothing. Throws InputError if the directory has no readable recipe.
+/// was finished when it began, and misses nothing. Throws InputError if the directory has no readable recipe,
+/// or does not have a wanted case.
 VerifySummary verify_dataset(const std::filesystem::path& directory, const VerifySettings& settings,
                              const RunObserver& observer = {});
 

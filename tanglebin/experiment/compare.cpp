@@ -16,40 +16,58 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* unmixed_recall = "unmixed_recall";
 constexpr std::array<const char*, 6> measure_names = {
-    "micro_recall", "mean_iou", "f1", "panoptic_quality", "adjusted_rand_index", "unmixed_recall"};
+    "micro_recall", "mean_iou", "f1", "panoptic_quality", "adjusted_rand_index", unmixed_recall};
 using Measures = std::array<double, measure_names.size()>;
+
+JsonRecord experiment_in(const fs::path& directory) {
+  const fs::path file = directory / experiment_name;
+  return {read_file(file), file.string(), 0};
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
 
 /// The runs of a method on a scene, by scanner and ratio.
 struct SceneRuns {
   std::string case_sha256;
   std::map<std::pair<std::string, double>, Measures> runs;
 };
-using Scenes = std::map<CaseId, SceneRuns>;
 
-// Where no points are marked as mixed, the micro-recall is that without them.
-double measure_of(const JsonRecord& record, const std::string& name) {
-  if (name != "unmixed_recall") return record.number(name, -1, 1);
-  const std::optional<double> recall =
-      record.has(name) ? record.number_or_null(name, 0, 1) : std::optional<double>{};
-  return recall ? *recall : record.number("micro_recall", 0, 1);
+/// A method's runs.
+struct Scenes {
+  std::map<CaseId, SceneRuns> by_id;
+  bool have_mixed = false;  ///< some clouds mark mixed points
+};
+
+std::optional<double> unmixed_recall_of(const RunResult& result, const JsonRecord& record) {
+  if (result.failure || !record.has(unmixed_recall)) return std::nullopt;
+  return record.number_or_null(unmixed_recall, 0, 1);
 }
 
+// Where no points are marked as mixed, the micro-recall is that without them.
 Measures measures_of(const RunResult& result, const JsonRecord& record) {
   Measures measures{};
   if (result.failure) return measures;
-  for (std::size_t i = 0; i < measures.size(); ++i) measures[i] = measure_of(record, measure_names[i]);
+  for (std::size_t i = 0; i + 1 < measures.size(); ++i) measures[i] = record.number(measure_names[i], -1, 1);
+  measures.back() = unmixed_recall_of(result, record).value_or(measures.front());
   return measures;
 }
 
 Scenes scenes_of(const Contestant& contestant) {
+  if (!has(experiment_in(contestant.results).texts("methods"), contestant.method))
+    throw InputError({contestant.results.string(), 0, "method"}, excerpt(contestant.method),
+                     "one of its methods");
   Scenes scenes;
   for_each_result(contestant.results, [&](const RunResult& result, const JsonRecord& record) {
     const bool is_unscored = result.failure && result.failure->of == FailureOf::scene;
     if (result.run.method != contestant.method || is_unscored) return;
-    SceneRuns& scene = scenes[result.run.scene];
+    SceneRuns& scene = scenes.by_id[result.run.scene];
     scene.case_sha256 = result.case_sha256;
     scene.runs[{result.run.scanner, result.run.ratio}] = measures_of(result, record);
+    scenes.have_mixed |= unmixed_recall_of(result, record).has_value();
   });
   return scenes;
 }
@@ -87,7 +105,7 @@ std::optional<Pair> paired(const CaseId& id, const SceneRuns& baseline, const Sc
 
 std::size_t count_runs(const Scenes& scenes) {
   std::size_t count = 0;
-  for (const auto& [id, scene] : scenes) count += scene.runs.size();
+  for (const auto& [id, scene] : scenes.by_id) count += scene.runs.size();
   return count;
 }
 
@@ -110,11 +128,12 @@ std::vector<double> differences_of(const std::vector<Pair>& pairs, std::size_t m
   return differences;
 }
 
-std::vector<MeasureDifference> measure_differences(const std::vector<Pair>& pairs) {
+std::vector<MeasureDifference> measure_differences(const std::vector<Pair>& pairs, bool have_mixed) {
   const Measures baseline = mean(pairs, &Pair::baseline);
   const Measures other = mean(pairs, &Pair::other);
   std::vector<MeasureDifference> differences;
   for (std::size_t i = 0; i < measure_names.size(); ++i) {
+    if (measure_names[i] == unmixed_recall && !have_mixed) continue;
     const Estimate estimate = estimate_of_mean(differences_of(pairs, i));
     differences.push_back(
         {measure_names[i], baseline[i], other[i], other[i] - baseline[i], estimate.low, estimate.high});
@@ -133,15 +152,6 @@ std::vector<SceneDifference> scenes_that_differ(const std::vector<Pair>& pairs, 
   std::ranges::stable_sort(scenes, std::ranges::greater(),
                            [](const SceneDifference& scene) { return std::abs(scene.difference()); });
   return scenes;
-}
-
-JsonRecord experiment_in(const fs::path& directory) {
-  const fs::path file = directory / experiment_name;
-  return {read_file(file), file.string(), 0};
-}
-
-bool has(const std::vector<std::string>& names, const std::string& name) {
-  return std::ranges::find(names, name) != names.end();
 }
 
 using Pairs = std::vector<std::pair<Contestant, Contestant>>;
@@ -197,9 +207,9 @@ Comparison compare(const Contestant& baseline, const Contestant& other) {
   const Scenes other_scenes = scenes_of(other);
   std::vector<Pair> pairs;
   std::size_t common_runs = 0;
-  for (const auto& [id, scene] : scenes) {
-    const auto found = other_scenes.find(id);
-    if (found == other_scenes.end()) continue;
+  for (const auto& [id, scene] : scenes.by_id) {
+    const auto found = other_scenes.by_id.find(id);
+    if (found == other_scenes.by_id.end()) continue;
     if (scene.case_sha256 != found->second.case_sha256)
       throw InputError({other.results.string(), 0, name_of(id)},
                        "another scene than in " + baseline.results.string());
@@ -211,7 +221,7 @@ Comparison compare(const Contestant& baseline, const Contestant& other) {
                      "no scene in common with " + baseline.method + " in " + baseline.results.string());
   comparison.scenes = pairs.size();
   comparison.unpaired = count_runs(scenes) + count_runs(other_scenes) - 2 * common_runs;
-  comparison.measures = measure_differences(pairs);
+  comparison.measures = measure_differences(pairs, scenes.have_mixed || other_scenes.have_mixed);
   comparison.better = scenes_that_differ(pairs, [](double difference) { return difference > 0; });
   comparison.worse = scenes_that_differ(pairs, [](double difference) { return difference < 0; });
   return comparison;

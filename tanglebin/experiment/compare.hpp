@@ -43,10 +43,10 @@ struct Comparison {
   Contestant baseline;
   Contestant other;
   std::size_t scenes = 0;
-  std::size_t unpaired = 0;  ///< runs that only one side has
-  std::vector<MeasureDifference> measures{};
-  std::vector<SceneDifference> better{};  ///< scenes, the one with the greatest difference first
-  std::vector<SceneDifference> worse{};   ///< the same
+  std::size_t unpaired = 0;                   ///< runs that only one side has
+  std::vector<MeasureDifference> measures{};  ///< unmixed_recall only if clouds mark mixed points
+  std::vector<SceneDifference> better{};      ///< scenes, the one with the greatest difference first
+  std::vector<SceneDifference> worse{};       ///< the same
 };
 
 /// Whom to compare: in one directory, every method with the baseline (the first if none is named); in
@@ -56,8 +56,8 @@ struct Comparison {
 std::vector<std::pair<Contestant, Contestant>> pairs_to_compare(
     const std::vector<std::filesystem::path>& results, const std::optional<std::string>& baseline);
 
-/// Always the same for the same results. Throws InputError if they have no scene in common, or if one is
-/// another scene in each, and as for_each_result() does.
+/// Always the same for the same results. Throws InputError if a directory has no results of its method, if
+/// they have no scene in common, if one is another scene in each, or if a line of results cannot be read.
 Comparison compare(const Contestant& baseline, const Contestant& other);
 
 }  // namespace tanglebin

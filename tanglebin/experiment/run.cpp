@@ -57,6 +57,7 @@ std::string case_sha256(const Dataset& dataset, const CaseId& id) {
 }
 
 KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
+  if (!recipe.random.empty()) return known_scene(resolve(recipe, id, draw(recipe, id)), id);
   KnownScene known{.support = {.bin = recipe.bin}, .camera = recipe.camera, .kinds = {}};
   const SetRecipe& set = set_named(recipe, id.set);
   for (const TubeSpec& spec : set.kinds) {
@@ -75,7 +76,7 @@ KnownScene known_scene(const Recipe& recipe, const CaseId& id) {
   return known;
 }
 
-KnownScene known_scene(const Recipe& recipe, const CaseData& data, const CaseId& id, const Scene& told) {
+KnownScene told_scene(const Recipe& recipe, const CaseData& data, const CaseId& id, const Scene& told) {
   KnownScene known = known_scene(recipe, id);
   if (is_empty(told)) return known;
   Scene scene = overridden(scene_of(known), told);

@@ -49,13 +49,14 @@ std::string case_sha256(const Dataset& dataset, const CaseId& id);
 
 /// The scene as known from the recipe of a case: the bin, the camera, and radius and segments of each kind of
 /// tube. Of kinds with the same radius, the one with the most segments counts; among these, the longest. Of
-/// lengths that differ from tube to tube, their range is known.
+/// lengths that differ from tube to tube, their range is known. Takes any recipe, and draws the case's random
+/// numbers. Throws InputError if it has no such set, and as resolve() does.
 KnownScene known_scene(const Recipe& recipe, const CaseId& id);
 
-/// The same, but with what `told` says instead, and with what that leaves open estimated from the case's
-/// cloud. The cloud is in the world frame, in metres, whatever `told` says. Throws InputError as resolve()
-/// does, naming the case's cloud.
-KnownScene known_scene(const Recipe& recipe, const CaseData& data, const CaseId& id, const Scene& told);
+/// The known_scene(), but with what `told` says instead, and with what that leaves open estimated from the
+/// case's cloud. The cloud is in the world frame, in metres, whatever `told` says. Throws InputError as
+/// resolve() does, naming the case's cloud.
+KnownScene told_scene(const Recipe& recipe, const CaseData& data, const CaseId& id, const Scene& told);
 
 /// The seed of a case's downsampling, which depends only on (settings.model.seed, set, number of tubes,
 /// case).

@@ -56,7 +56,7 @@ Lines run_cloud(const Dataset& dataset, const ExperimentSettings& settings, cons
   const Recipe recipe = recipe_seen(dataset, seen);
   return lines_of_runs(settings, seen, [&](const Entry& entry, const RunId& run) -> Lines {
     try {
-      const KnownScene known = known_scene(recipe, data, seen.scene, settings.scene);
+      const KnownScene known = told_scene(recipe, data, seen.scene, settings.scene);
       const Modelled modelled = model_by(entry, known, data, run, settings, place.scratch);
       if (settings.keep_models) keep_model(place.results, run, data.cloud, modelled.model);
       Lines lines{result_json(run, record, modelled, score_model(data, modelled.model, modelled.has_tubes))};

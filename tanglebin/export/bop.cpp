@@ -8,6 +8,7 @@
 
 #include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/cloud/images.hpp"
+#include "tanglebin/export/extent.hpp"
 #include "tanglebin/export/format.hpp"
 #include "tanglebin/export/mask.hpp"
 #include "tanglebin/files/read_file.hpp"
@@ -24,32 +25,63 @@ constexpr double depth_step = 1 / (depth_scale * millimetre);  // mm
 /// What scene_gt_info.json has for an empty mask.
 constexpr std::array<int, 4> no_box{-1, -1, -1, -1};
 
-std::string scene_folder(const ExportScene& scene) {
-  return fmt::format("train/{:06}", scene.place.number);
+// Files
+
+std::string scene_folder(const CasePlace& place) {
+  return fmt::format("train/{:06}", place.number);
+}
+
+constexpr std::array<const char*, 4> scene_files{"scene_camera.json", "scene_gt.json", "scene_gt_info.json",
+                                                 "scene_tanglebin.json"};
+
+std::string depth_file(const CasePlace& place, std::size_t image) {
+  return fmt::format("{}/depth/{:06}.png", scene_folder(place), image);
+}
+
+// `kind` is "mask" or "mask_visib".
+std::string mask_file(const CasePlace& place, const char* kind, std::size_t image, std::size_t tube) {
+  return fmt::format("{}/{}/{:06}_{:06}.png", scene_folder(place), kind, image, tube);
 }
 
 // Every tube is an object of its own, numbered through the whole recipe.
-std::size_t object_number(const ExportScene& scene, std::size_t tube) {
-  return scene.place.tubes_before + tube + 1;
+std::size_t object_number(const CasePlace& place, std::size_t tube) {
+  return place.tubes_before + tube + 1;
 }
+
+std::string model_file(const CasePlace& place, std::size_t tube) {
+  return fmt::format("models/obj_{:06}.ply", object_number(place, tube));
+}
+
+// A line for each object: its number, a tab and what models_info.json says of it.
+std::string models_file(const ExportUnit& unit) {
+  return fmt::format("models/of_cases/{}.txt", view_name(unit.cases.front(), ""));
+}
+
+std::vector<std::string> files_of(const ExportUnit& unit, const CasePlace& place, std::size_t images) {
+  const auto tubes = static_cast<std::size_t>(unit.cases.front().tubes);
+  std::vector<std::string> files{models_file(unit)};
+  for (const char* name : scene_files) files.push_back(fmt::format("{}/{}", scene_folder(place), name));
+  for (std::size_t tube = 0; tube < tubes; ++tube) files.push_back(model_file(place, tube));
+  for (std::size_t image = 0; image < images; ++image) {
+    files.push_back(depth_file(place, image));
+    for (std::size_t tube = 0; tube < tubes; ++tube) {
+      for (const char* kind : {"mask", "mask_visib"}) files.push_back(mask_file(place, kind, image, tube));
+    }
+  }
+  return files;
+}
+
+// What the files say
 
 // An object's frame has the world's axes, and its origin is at the centre of the tube's bounding box.
 Eigen::Vector3d origin_of(const Tube& tube) {
-  return bounds(tube).center();
-}
-
-// The longest distance between two points of a tube's surface, m: between two of its spheres.
-double diameter_of(const Tube& tube) {
-  double longest = 0;
-  for (const Node& node : tube.nodes) {
-    for (const Node& other : tube.nodes) longest = std::max(longest, (node.position - other.position).norm());
-  }
-  return longest + 2 * tube.radius;
+  return extent_of(tube).box.center();
 }
 
 Json model_info(const Tube& tube) {
-  const Eigen::Vector3d size = bounds(tube).sizes() / millimetre;
-  return {{"diameter", diameter_of(tube) / millimetre},
+  const Extent extent = extent_of(tube);
+  const Eigen::Vector3d size = extent.box.sizes() / millimetre;
+  return {{"diameter", extent.diameter / millimetre},
           {"min_x", -size.x() / 2},
           {"min_y", -size.y() / 2},
           {"min_z", -size.z() / 2},
@@ -105,9 +137,10 @@ Json box_entry(const Mask& mask) {
 Json info_entry(const Mask& whole, const Mask& visible, const DepthImage& depth) {
   const auto valid = std::ranges::count_if(
       whole.pixels, [&](std::uint32_t pixel) { return std::isfinite(depth.depths[pixel]); });
-  const double share = whole.pixels.empty() ? 0
-                                            : static_cast<double>(visible.pixels.size()) /
-                                                  static_cast<double>(whole.pixels.size());
+  const auto shown = std::ranges::count_if(
+      visible.pixels, [&](std::uint32_t pixel) { return std::ranges::binary_search(whole.pixels, pixel); });
+  const double share =
+      whole.pixels.empty() ? 0 : static_cast<double>(shown) / static_cast<double>(whole.pixels.size());
   return {{"bbox_obj", box_entry(whole)},
           {"bbox_visib", box_entry(visible)},
           {"px_count_all", whole.pixels.size()},
@@ -135,54 +168,48 @@ struct SceneJson {
 void add_image(const ExportScene& scene, std::size_t number, SceneJson& json, ExportFiles& files) {
   const SceneView& view = scene.views[number];
   const Camera& camera = view.scan.camera;
-  const std::string folder = scene_folder(scene);
   const std::string key = std::to_string(number);
   const DepthImage depth = depth_image(view.scan);
   const std::vector<Mask> visible = measured_masks(view.scan, scene.tubes.size());
-  files.write(fmt::format("{}/depth/{:06}.png", folder, number), depth_png(depth));
+  files.write(depth_file(scene.place, number), depth_png(depth));
   json.camera[key] = camera_entry(camera);
   json.poses[key] = Json::array();
   json.infos[key] = Json::array();
   json.occlusions[key] = view_json(scene, view);
   for (std::size_t tube = 0; tube < scene.tubes.size(); ++tube) {
     const Mask whole = whole_mask(view.whole[tube], camera);
-    const std::string name = fmt::format("{:06}_{:06}.png", number, tube);
-    files.write(fmt::format("{}/mask/{}", folder, name), png_of(whole));
-    files.write(fmt::format("{}/mask_visib/{}", folder, name), png_of(visible[tube]));
-    json.poses[key].push_back(pose_entry(scene.tubes[tube], object_number(scene, tube), camera));
+    files.write(mask_file(scene.place, "mask", number, tube), png_of(whole));
+    files.write(mask_file(scene.place, "mask_visib", number, tube), png_of(visible[tube]));
+    json.poses[key].push_back(pose_entry(scene.tubes[tube], object_number(scene.place, tube), camera));
     json.infos[key].push_back(info_entry(whole, visible[tube], depth));
   }
-}
-
-// A line for each object: its number, a tab and what models_info.json says of it.
-std::string models_file(const ExportUnit& unit) {
-  return fmt::format("models/of_cases/{}.txt", view_name(unit.cases.front(), ""));
 }
 
 std::string write_models(const ExportScene& scene, ExportFiles& files) {
   std::string lines;
   for (std::size_t i = 0; i < scene.tubes.size(); ++i) {
-    const std::size_t number = object_number(scene, i);
-    files.write(fmt::format("models/obj_{:06}.ply", number), model_ply(scene.tubes[i]));
-    lines += fmt::format("\"{}\":{}\n", number, model_info(scene.tubes[i]).dump());
+    files.write(model_file(scene.place, i), model_ply(scene.tubes[i]));
+    lines += fmt::format("\"{}\":{}\n", object_number(scene.place, i), model_info(scene.tubes[i]).dump());
   }
   return lines;
 }
 
 void write_scene(const ExportUnit& unit, const SceneReader& reader, ExportFiles& files) {
   const ExportScene scene = reader.read(unit.cases.front());
-  const std::string folder = scene_folder(scene);
   SceneJson json;
   for (std::size_t i = 0; i < scene.views.size(); ++i) add_image(scene, i, json, files);
-  files.write(folder + "/scene_camera.json", json.camera.dump() + '\n');
-  files.write(folder + "/scene_gt.json", json.poses.dump() + '\n');
-  files.write(folder + "/scene_gt_info.json", json.infos.dump() + '\n');
-  files.write(folder + "/scene_tanglebin.json", json.occlusions.dump() + '\n');
+  const std::array parts{&json.camera, &json.poses, &json.infos, &json.occlusions};
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    files.write(fmt::format("{}/{}", scene_folder(scene.place), scene_files.at(i)),
+                parts.at(i)->dump() + '\n');
   files.seal(models_file(unit), write_models(scene, files));
 }
 
+constexpr const char* models_info_file = "models/models_info.json";
+constexpr const char* camera_file = "camera.json";
+
 void write_models_info(const std::vector<ExportUnit>& units, ExportFiles& files) {
-  files.seal("models/models_info.json", [&](const Sink& sink) {
+  files.seal(models_info_file, [&](const Sink& sink) {
     std::string_view separator = "{\n";
     for (const ExportUnit& unit : units) {
       for_each_line(files.directory() / models_file(unit), [&](const FileLine& line) {
@@ -205,7 +232,7 @@ void write_camera(const Camera& camera, ExportFiles& files) {
   const Json json{{"width", camera.width},    {"height", camera.height}, {"fx", camera.fx},
                   {"fy", camera.fy},          {"cx", camera.cx},         {"cy", camera.cy},
                   {"depth_scale", depth_step}};
-  files.seal("camera.json", json.dump() + '\n');
+  files.seal(camera_file, json.dump() + '\n');
 }
 
 }  // namespace
@@ -213,12 +240,19 @@ void write_camera(const Camera& camera, ExportFiles& files) {
 Format bop_format(const Recipe& recipe) {
   const bool writes_camera = has_one_camera(recipe);
   const Camera camera = recipe.camera;
-  return {.last_file = models_file,
+  std::vector<std::string> common{models_info_file};
+  if (writes_camera) common.emplace_back(camera_file);
+  return {.files_of =
+              [places = case_places(recipe), images = scanners(recipe).size()](const ExportUnit& unit) {
+                return files_of(unit, places.at(unit.cases.front()), images);
+              },
           .write = write_scene,
-          .assemble = [=](const std::vector<ExportUnit>& units, ExportFiles& files) {
-            write_models_info(units, files);
-            if (writes_camera) write_camera(camera, files);
-          }};
+          .common_files = common,
+          .assemble =
+              [=](const std::vector<ExportUnit>& units, ExportFiles& files) {
+                write_models_info(units, files);
+                if (writes_camera) write_camera(camera, files);
+              }};
 }
 
 }  // namespace tanglebin

@@ -146,6 +146,12 @@ void write_annotation_file(const std::vector<ExportUnit>& units, std::size_t ind
   });
 }
 
+std::vector<std::string> common_files() {
+  std::vector<std::string> files;
+  for (const AnnotationFile& file : annotation_files) files.emplace_back(file.path);
+  return files;
+}
+
 void assemble(const std::vector<ExportUnit>& units, ExportFiles& files) {
   for (std::size_t index = 0; index < annotation_files.size(); ++index)
     write_annotation_file(units, index, files);
@@ -153,9 +159,16 @@ void assemble(const std::vector<ExportUnit>& units, ExportFiles& files) {
 
 }  // namespace
 
-Format coco_format() {
-  return {.last_file = [](const ExportUnit& unit) { return parts_file(unit.cases.front()); },
+Format coco_format(const Recipe& recipe) {
+  return {.files_of =
+              [all = scanners(recipe)](const ExportUnit& unit) {
+                const CaseId& id = unit.cases.front();
+                std::vector<std::string> files{parts_file(id)};
+                for (const Scanner& scanner : all) files.push_back(depth_file(id, scanner.name));
+                return files;
+              },
           .write = write_case,
+          .common_files = common_files(),
           .assemble = assemble};
 }
 

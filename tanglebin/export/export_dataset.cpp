@@ -38,7 +38,7 @@ constexpr std::array<FormatName, 5> format_names{{{ExportFormat::coco, "coco"},
 Format functions_of(ExportFormat format, const Recipe& recipe) {
   switch (format) {
     case ExportFormat::coco:
-      return coco_format();
+      return coco_format(recipe);
     case ExportFormat::numpy:
       return numpy_format(recipe);
     case ExportFormat::webdataset:
@@ -150,9 +150,12 @@ private:
     sync_directory(request_.directory);
   }
 
-  bool is_done(const ExportUnit& unit) const {
-    return fs::exists(request_.directory / format_.last_file(unit));
+  bool are_there(const std::vector<std::string>& files) const {
+    return std::ranges::all_of(
+        files, [this](const std::string& file) { return fs::exists(request_.directory / file); });
   }
+
+  bool is_done(const ExportUnit& unit) const { return are_there(format_.files_of(unit)); }
 
   void find_missing() {
     const std::vector<ExportUnit> own = request_.shard ? part_of(*request_.shard, all_) : all_;
@@ -209,7 +212,7 @@ private:
     const DirectoryLock lock(request_.directory);
     const fs::path staging = request_.directory / ".assembling.unfinished";
     fs::remove_all(staging);  // of a run that was killed
-    if (read_index().json().value("complete", false)) return true;
+    if (read_index().json().value("complete", false) && are_there(format_.common_files)) return true;
     const auto is_missing = [this](const ExportUnit& unit) { return !is_done(unit); };
     if (std::ranges::any_of(all_, is_missing)) return false;
     make_directories(staging);

@@ -14,16 +14,19 @@ std::string path_of_view(const CaseId& id, const std::string& scanner, const std
 
 Format file_per_view(const Recipe& recipe, const std::string& extension,
                      const std::function<std::string(const ExportScene&, const SceneView&)>& bytes_of) {
-  const std::string last_scanner = scanners(recipe).back().name;
-  return {
-      .last_file =
-          [=](const ExportUnit& unit) { return path_of_view(unit.cases.front(), last_scanner, extension); },
-      .write =
-          [=](const ExportUnit& unit, const SceneReader& reader, ExportFiles& files) {
-            const ExportScene scene = reader.read(unit.cases.front());
-            for (const SceneView& view : scene.views)
-              files.seal(path_of_view(scene.id, view.scanner, extension), bytes_of(scene, view));
-          }};
+  return {.files_of =
+              [=, all = scanners(recipe)](const ExportUnit& unit) {
+                std::vector<std::string> files;
+                for (const Scanner& scanner : all)
+                  files.push_back(path_of_view(unit.cases.front(), scanner.name, extension));
+                return files;
+              },
+          .write =
+              [=](const ExportUnit& unit, const SceneReader& reader, ExportFiles& files) {
+                const ExportScene scene = reader.read(unit.cases.front());
+                for (const SceneView& view : scene.views)
+                  files.seal(path_of_view(scene.id, view.scanner, extension), bytes_of(scene, view));
+              }};
 }
 
 PackedMasks packed_whole_masks(const SceneView& view) {

@@ -21,17 +21,20 @@ struct ExportUnit {
 struct Format {
   std::size_t cases_per_unit = 1;
 
-  /// The file that a unit writes last: when it is there, the unit is done.
-  std::function<std::string(const ExportUnit&)> last_file;
+  /// The files of a unit: when all are there, it is done.
+  std::function<std::vector<std::string>(const ExportUnit&)> files_of;
 
   /// Writes a unit, in a worker process.
   std::function<void(const ExportUnit&, const SceneReader&, ExportFiles&)> write;
 
-  /// Writes what is about all units, once all are done.
+  /// The files that are about all units.
+  std::vector<std::string> common_files{};
+
+  /// Writes these, once all units are done.
   std::function<void(const std::vector<ExportUnit>&, ExportFiles&)> assemble = [](const auto&, auto&) {};
 };
 
-Format coco_format();
+Format coco_format(const Recipe& recipe);
 Format numpy_format(const Recipe& recipe);
 Format webdataset_format();
 Format hdf5_format(const Recipe& recipe);

@@ -45,14 +45,18 @@ void expect_the_same_scan(const Dataset& dataset, const CaseRecord& record, cons
 
 }  // namespace
 
-SceneReader::SceneReader(const Dataset& dataset) : dataset_(dataset) {
+std::map<CaseId, CasePlace> case_places(const Recipe& recipe) {
+  std::map<CaseId, CasePlace> places;
   CasePlace next{1, 0};
-  for (const CaseId& id : cases(dataset.recipe)) {
-    places_.emplace(id, next);
+  for (const CaseId& id : cases(recipe)) {
+    places.emplace(id, next);
     ++next.number;
     next.tubes_before += static_cast<std::size_t>(id.tubes);
   }
+  return places;
 }
+
+SceneReader::SceneReader(const Dataset& dataset) : dataset_(dataset), places_(case_places(dataset.recipe)) {}
 
 ExportScene SceneReader::read(const CaseId& id) const {
   const CaseRecord record = dataset_.catalogue.record(id);

@@ -28,6 +28,9 @@ struct CasePlace {
   std::size_t tubes_before;  ///< how many tubes the cases before it have
 };
 
+/// Where each case of a recipe is.
+std::map<CaseId, CasePlace> case_places(const Recipe& recipe);
+
 /// A case of a dataset, to be exported.
 struct ExportScene {
   CaseId id;

@@ -56,7 +56,9 @@ void write_tar(const ExportUnit& unit, const SceneReader& reader, ExportFiles& f
 }  // namespace
 
 Format webdataset_format() {
-  return {.cases_per_unit = cases_per_tar, .last_file = tar_of, .write = write_tar};
+  return {.cases_per_unit = cases_per_tar,
+          .files_of = [](const ExportUnit& unit) { return std::vector{tar_of(unit)}; },
+          .write = write_tar};
 }
 
 }  // namespace tanglebin

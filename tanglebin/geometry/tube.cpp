@@ -1,8 +1,58 @@
 #include "tanglebin/geometry/tube.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "tanglebin/base/expect.hpp"
 
 namespace tanglebin {
+namespace {
+
+// A tube's edges, which end at its nodes, one by one join parts that were apart.
+bool is_tree(const Tube& tube) {
+  if (tube.edges.size() + 1 != tube.nodes.size()) return false;
+  std::vector<std::size_t> parents(tube.nodes.size());
+  std::iota(parents.begin(), parents.end(), std::size_t{0});
+  const auto root_of = [&](std::size_t node) {
+    while (parents[node] != node) node = parents[node] = parents[parents[node]];
+    return node;
+  };
+  return std::ranges::all_of(tube.edges, [&](const Edge& edge) {
+    const std::size_t from = root_of(edge.from);
+    const std::size_t to = root_of(edge.to);
+    parents[from] = to;
+    return from != to;
+  });
+}
+
+void expect_of_tube(bool holds, const char* field, const Tube& tube, const std::string& found,
+                    const std::string& expected) {
+  if (!holds) expect(false, fmt::format("{} of tube {}", field, tube.id), found, expected);
+}
+
+}  // namespace
+
+void validate(const Tube& tube) {
+  expect_of_tube(std::isfinite(tube.radius) && tube.radius > 0, "radius", tube,
+                 fmt::format("{}", tube.radius), "a positive number of metres");
+  for (const Node& node : tube.nodes) {
+    expect_of_tube(node.position.allFinite(), "nodes", tube, "a position that is not finite",
+                   "finite numbers");
+  }
+  for (const Edge& edge : tube.edges) {
+    const std::size_t last = std::max(edge.from, edge.to);
+    expect_of_tube(last < tube.nodes.size(), "edges", tube, fmt::format("{}", last),
+                   fmt::format("the index of one of {} nodes", tube.nodes.size()));
+  }
+  expect_of_tube(is_tree(tube), "edges", tube, "no tree", "edges that connect all nodes without a loop");
+}
+
+void validate(const std::vector<Tube>& tubes) {
+  for (const Tube& tube : tubes) validate(tube);
+}
 
 EdgeFrame frame_of(const Tube& tube, const Edge& edge) {
   return frame_between(tube.nodes[edge.from].position, tube.nodes[edge.to].position);

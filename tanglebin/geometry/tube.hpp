@@ -33,6 +33,12 @@ struct Tube {
   bool flat_ends = false;  ///< cut flat at the outermost nodes, not rounded beyond them
 };
 
+/// Throws InputError naming the field and the tube's id unless it is a tube: a positive radius, positions
+/// that are finite, edges between its nodes that make a tree. Functions of other rooms that take tubes of any
+/// origin call it, and throw as it does.
+void validate(const Tube& tube);
+void validate(const std::vector<Tube>& tubes);
+
 /// Where the cylinder of an edge is, which follows from its two nodes.
 struct EdgeFrame {
   Eigen::Vector3d centre;       ///< m, the midpoint of the two nodes

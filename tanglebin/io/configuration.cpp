@@ -274,6 +274,7 @@ std::vector<Tube> read_configuration(const std::filesystem::path& file) {
 }
 
 void write_configuration(std::ostream& out, const std::vector<Tube>& tubes) {
+  validate(tubes);
   fmt::memory_buffer text;
   fmt::format_to(std::back_inserter(text), "{}\n", tubes.size());
   for (const Tube& tube : tubes) write_tube(text, tube);

@@ -95,6 +95,7 @@ std::size_t total(const std::vector<TubeMesh>& meshes, Items items) {
 }  // namespace
 
 TubeMesh mesh_of(const Tube& tube) {
+  validate(tube);
   TubeMesh mesh{.label = tube.id, .vertices = {}, .triangles = {}};
   for (const Capsule& capsule : capsules(tube)) add_part(mesh, capsule);
   return mesh;

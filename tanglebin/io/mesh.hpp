@@ -21,7 +21,8 @@ struct TubeMesh {
 };
 
 /// The mesh of a tube, of 32 flat sides along it. With flat ends it ends at the outermost nodes; with round
-/// ones it has a hemisphere beyond each. The vertices lie on the true surface.
+/// ones it has a hemisphere beyond each. The vertices lie on the true surface. Throws InputError as
+/// validate(Tube) does.
 TubeMesh mesh_of(const Tube& tube);
 
 /// Writes meshes as binary little-endian PLY: vertices with the colours of the labels, and triangles. The

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "tanglebin/base/expect.hpp"
+#include "tanglebin/base/text.hpp"
 #include "tanglebin/recipe/randomization.hpp"
 
 namespace tanglebin {
@@ -16,6 +20,13 @@ std::vector<CaseId> cases(const Recipe& recipe) {
       result.push_back({set.name, draw_number_of_tubes(recipe, set, number), number});
   }
   return result;
+}
+
+void expect_cases(const Recipe& recipe, const std::vector<CaseId>& wanted) {
+  std::vector<CaseId> all = cases(recipe);
+  std::ranges::sort(all);
+  for (const CaseId& id : wanted)
+    expect(std::ranges::binary_search(all, id), "wanted", excerpt(name_of(id)), "a case of the recipe");
 }
 
 std::string folder_name(std::string_view set, int tubes) {

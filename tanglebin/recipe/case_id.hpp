@@ -23,6 +23,9 @@ struct CaseId {
 /// draw their number of tubes are by set and number.
 std::vector<CaseId> cases(const Recipe& recipe);
 
+/// Throws InputError naming the first of these cases that the recipe does not have.
+void expect_cases(const Recipe& recipe, const std::vector<CaseId>& wanted);
+
 /// The folder of the cases of one set and number of tubes, as in the published data: "A10".
 std::string folder_name(std::string_view set, int tubes);
 

@@ -12,6 +12,7 @@
 
 #include "tanglebin/base/counter_random.hpp"
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/expect.hpp"
 #include "tanglebin/base/random.hpp"
 #include "tanglebin/recipe/case_id.hpp"
 #include "tanglebin/recipe/randomization.hpp"
@@ -206,6 +207,22 @@ int draw_number_of_tubes(const Recipe& recipe, const SetRecipe& set, int number)
   const CaseId id{set.name, not_drawn_yet, number};
   const CounterRandom random = random_of("set.tubes", recipe.seed, id, whole_scene);
   return static_cast<int>(draw_number(*set.drawn_tubes, true, random));
+}
+
+void expect_lowest_numbers(const Recipe& recipe) {
+  NumbersByPath lows;
+  for (const RandomSetting& setting : recipe.random) {
+    if (const RandomNumber* number = std::get_if<RandomNumber>(&setting.value))
+      lows[setting.path] = lowest(*number);
+  }
+  const Recipe read = read_tree(with_numbers(tree_of(recipe), lows), TomlSource{});
+  Recipe fixed = recipe;
+  fixed.random.clear();
+  if (const auto changed = first_difference(fixed, read))
+    expect(false, changed->path, changed->first,
+           changed->second +
+               ", the lowest that cases draw: what is drawn cannot be set in code, only in the "
+               "recipe's text");
 }
 
 std::vector<DrawnNumber> draw(const Recipe& recipe, const CaseId& id) {

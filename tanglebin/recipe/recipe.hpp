@@ -137,7 +137,8 @@ Recipe resolve(const Recipe& recipe, const CaseId& id, const std::vector<DrawnNu
 
 /// Throws InputError naming the field that makes the recipe invalid: whatever the bin, the scanner, the
 /// settling and the tubes reject, sets that share a name or a folder, numbers out of range (docs/formats.md),
-/// a bin smaller than a tube. read_recipe() calls it; if you change a recipe, call it yourself.
+/// a bin smaller than a tube, a number that is drawn but was set in code. read_recipe() calls it; if you
+/// change a recipe, call it yourself.
 void validate(const Recipe& recipe);
 
 /// Throws InputError naming a scanner that cannot see the bin, or that has it out of range of the depth

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "tanglebin/files/toml_fields.hpp"
@@ -30,6 +31,20 @@ toml::table tree_of(const Recipe& recipe);
 
 /// The path of a set's kind of tubes: "set[0].tube" if there is only one, or "set[0].tube[1]".
 std::string path_of_kind(const Recipe& recipe, std::size_t set, std::size_t kind);
+
+/// A setting that two recipes have differently, as they are written.
+struct SettingDifference {
+  std::string path;
+  std::string first;  ///< "nothing" if it lacks the setting
+  std::string second;
+};
+
+/// The first such setting in the order in which they are written; nullopt if there is none.
+std::optional<SettingDifference> first_difference(const Recipe& first, const Recipe& second);
+
+/// Throws InputError naming a member of a recipe that does not hold the lowest number of what is drawn: it
+/// was set in code, and drawing would overrule it.
+void expect_lowest_numbers(const Recipe& recipe);
 
 /// Puts the recipe's random settings into the order in which they are written.
 void sort_as_written(Recipe& recipe);

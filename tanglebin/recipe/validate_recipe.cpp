@@ -214,6 +214,7 @@ void validate(const Recipe& recipe) {
   for (std::size_t i = 0; i < recipe.sets.size(); ++i) validate_set(recipe.sets[i], recipe.bin, place(i));
   validate_folders(recipe.sets);
   validate_number_of_cases(recipe.sets);
+  if (!recipe.random.empty()) expect_lowest_numbers(recipe);
 }
 
 }  // namespace tanglebin

@@ -193,18 +193,23 @@ void write_recipe(std::ostream& out, const Recipe& recipe) {
   out << text_of(tree_of(recipe));
 }
 
-std::optional<std::string> difference(const Recipe& found, const Recipe& wanted) {
-  if (found == wanted) return std::nullopt;
-  const Settings there = settings_of(found);
-  const Settings here = settings_of(wanted);
-  for (const Settings& settings : {here, there}) {
+std::optional<SettingDifference> first_difference(const Recipe& first, const Recipe& second) {
+  if (first == second) return std::nullopt;
+  const Settings of_first = settings_of(first);
+  const Settings of_second = settings_of(second);
+  for (const Settings& settings : {of_second, of_first}) {
     for (const auto& [path, text] : settings) {
-      const std::string it_has = text_at(there, path);
-      const std::string this_has = text_at(here, path);
-      if (it_has != this_has) return fmt::format("{}: it has {}, this one {}", path, it_has, this_has);
+      SettingDifference difference{path, text_at(of_first, path), text_at(of_second, path)};
+      if (difference.first != difference.second) return difference;
     }
   }
   return std::nullopt;
+}
+
+std::optional<std::string> difference(const Recipe& found, const Recipe& wanted) {
+  const std::optional<SettingDifference> first = first_difference(found, wanted);
+  if (!first) return std::nullopt;
+  return fmt::format("{}: it has {}, this one {}", first->path, first->first, first->second);
 }
 
 }  // namespace tanglebin

@@ -42,7 +42,7 @@ std::optional<Model> ModelAgain::model(const Entry& entry, const SeenCase& seen,
   const RunId run{entry.name, scene, ratio_to_show(settings_.ratios), scanner};
   const bool is_kept = std::holds_alternative<Command>(entry.what) && has_model(results_, run);
   const Entry source = is_kept ? entry_of_kept(results_, entry.name) : entry;
-  const KnownScene known = known_scene(recipe_seen(dataset_, seen), data, scene, settings_.scene);
+  const KnownScene known = told_scene(recipe_seen(dataset_, seen), data, scene, settings_.scene);
   try {
     return model_by(source, known, data, run, settings_, scratch_).model;
   } catch (const InputError&) {

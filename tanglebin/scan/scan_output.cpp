@@ -1,7 +1,11 @@
 #include "tanglebin/scan/scan_output.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <limits>
 
+#include "tanglebin/base/expect.hpp"
 #include "tanglebin/cloud/label_colors.hpp"
 
 namespace tanglebin {
@@ -50,10 +54,18 @@ std::vector<Value> whole_image(const Scan& scan, Value background, ValueOf value
   return values;
 }
 
+std::vector<Color> colors_for(const Scan& scan, int tubes) {
+  std::int32_t largest = 0;
+  for (const Pixel& pixel : scan.pixels) largest = std::max(largest, pixel.label);
+  expect(tubes >= largest, "tubes", fmt::format("{}", tubes),
+         fmt::format("at least {}, the largest label of the scan", largest));
+  return label_colors(tubes);
+}
+
 }  // namespace
 
 PointCloud cloud_from_scan(const Scan& scan, CloudOf what, int tubes, const PointProperties& properties) {
-  const std::vector<Color> colors = label_colors(tubes);
+  const std::vector<Color> colors = colors_for(scan, tubes);
   std::vector<std::size_t> seen;
   for (std::size_t i = 0; i < scan.pixels.size(); ++i) {
     if (is_point(scan.pixels[i], what)) seen.push_back(i);
@@ -68,7 +80,7 @@ PointCloud cloud_from_scan(const Scan& scan, CloudOf what, int tubes, const Poin
 
 PointCloud organized_cloud_from_scan(const Scan& scan, CloudOf what, int tubes,
                                      const PointProperties& properties) {
-  const std::vector<Color> colors = label_colors(tubes);
+  const std::vector<Color> colors = colors_for(scan, tubes);
   const auto width = static_cast<std::size_t>(scan.camera.width);
   const auto height = static_cast<std::size_t>(scan.camera.height);
   PointCloud cloud = empty_cloud(width * height, properties);

@@ -18,11 +18,12 @@ struct PointProperties {
   bool operator==(const PointProperties&) const = default;
 };
 
-/// The unordered cloud of a scan, in pixel order, labelled and coloured with label_colors().
+/// The unordered cloud of a scan, in pixel order, labelled and coloured with label_colors(). Throws
+/// InputError naming `tubes` unless that is at least the largest label.
 PointCloud cloud_from_scan(const Scan& scan, CloudOf what, int tubes, const PointProperties& properties = {});
 
 /// The organized cloud of the whole image. Pixels without a point are NaN, null, of intensity 0 and not
-/// mixed.
+/// mixed. Throws InputError as cloud_from_scan() does.
 PointCloud organized_cloud_from_scan(const Scan& scan, CloudOf what, int tubes,
                                      const PointProperties& properties = {});
 

@@ -72,6 +72,7 @@ bool lie_outside_of_a_face(const AlignedBox3d& box, const Vector3d& a, const Vec
 }  // namespace
 
 Surfaces surfaces_of(const std::vector<Tube>& tubes, std::vector<AlignedBox3d> boxes) {
+  validate(tubes);
   Surfaces surfaces{.boxes = std::move(boxes), .capsules = {}, .labels = {}};
   for (const Tube& tube : tubes) {
     for (const Capsule& capsule : capsules(tube)) {

@@ -26,8 +26,9 @@ struct TubesScore {
 };
 
 /// Scores modelled tubes. Ids and the order of tubes, nodes and edges do not matter, and neither does a
-/// modelled tube's radius: "within a radius" refers to the true tube. Throws std::invalid_argument if no true
-/// tube has an edge with a length.
+/// modelled tube's radius: "within a radius" refers to the true tube. Throws InputError unless the true
+/// tubes are valid as validate(Tube) has it, and the modelled ones' nodes finite and edges between them;
+/// std::invalid_argument if no true tube has an edge with a length.
 TubesScore score_tubes(const std::vector<Tube>& truth, const std::vector<Tube>& modelled);
 
 }  // namespace tanglebin

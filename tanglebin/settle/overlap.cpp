@@ -30,6 +30,7 @@ double distance(const Capsule& capsule, const Eigen::AlignedBox3d& box) {
 }  // namespace
 
 double largest_tube_overlap(const std::vector<Tube>& tubes) {
+  validate(tubes);
   double deepest = 0;
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     for (std::size_t j = i + 1; j < tubes.size(); ++j) {
@@ -41,6 +42,7 @@ double largest_tube_overlap(const std::vector<Tube>& tubes) {
 }
 
 double largest_bin_overlap(const std::vector<Tube>& tubes, const Bin& bin) {
+  validate(tubes);
   double deepest = 0;
   for (const Tube& tube : tubes) {
     for (const Eigen::AlignedBox3d& box : boxes(bin)) {

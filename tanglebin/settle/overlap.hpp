@@ -7,11 +7,11 @@
 
 namespace tanglebin {
 
-/// The deepest overlap of two tubes, m; 0 if none overlap.
+/// The deepest overlap of two tubes, m; 0 if none overlap. Throws InputError as validate(Tube) does.
 double largest_tube_overlap(const std::vector<Tube>& tubes);
 
 /// The deepest overlap of a tube with the floor or a wall, m; 0 if there is none. If a tube's centre line
-/// enters the bin's material, its overlap counts as its radius.
+/// enters the bin's material, its overlap counts as its radius. Throws InputError as validate(Tube) does.
 double largest_bin_overlap(const std::vector<Tube>& tubes, const Bin& bin);
 
 }  // namespace tanglebin

@@ -48,8 +48,9 @@ struct Settled {
 /// or the time is up. The heap is valid if fault_of_heap() finds no fault. One that moves too far in the test
 /// of rest goes on from where the test left it. Bodies are never put to sleep. The same arguments give the
 /// same heap. Not thread-safe: ODE has one random generator per process. Calls `at_step` after each step with
-/// the time simulated so far, s; what it throws ends the simulation. Throws InputError for a tube without
-/// mass.
+/// the time simulated so far, s; what it throws ends the simulation. Throws InputError as validate(Tube)
+/// does, and for a tube that the solver cannot take: without mass, or with a mass, size or place beyond all
+/// reason.
 Settled settle(
     const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings, std::uint64_t seed,
     const std::function<void(double)>& at_step = [](double) {});
@@ -57,7 +58,8 @@ Settled settle(
 /// Describes what is wrong with a heap of tubes with known masses; empty if it is valid. In a valid heap no
 /// overlap exceeds overlap_max, and every centre of mass is between the walls (the heap of a full bin may
 /// rise above the rim). If the tubes are put into the bin in place without speed, no node moves more than
-/// proof_motion in proof_time, without damping and with iterations_max solver iterations.
+/// proof_motion in proof_time, without damping and with iterations_max solver iterations. Throws InputError
+/// as settle() does.
 std::string fault_of_heap(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings);
 
 /// Throws InputError naming the field under `settle` that is out of range.

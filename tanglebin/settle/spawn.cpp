@@ -91,6 +91,7 @@ void raise_until_clear(Tube& tube, std::span<const Tube> placed) {
 }  // namespace
 
 void spawn(Rng& rng, std::vector<Tube>& tubes, const Bin& bin) {
+  validate(tubes);
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     lay_down(tubes[i]);
     turn_to_fit(rng, tubes[i], bin);

@@ -20,11 +20,22 @@ void initialize_ode_once() {
   static_cast<void>(initialized);
 }
 
-// ODE aborts the process if a mass is not positive.
-void require_mass(const Tube& tube) {
-  if (std::isfinite(tube.mass) && tube.mass > 0) return;
-  throw InputError({"", 0, fmt::format("mass of tube {}", tube.id)}, fmt::format("{}", tube.mass),
-                   "a positive number");
+void require_within(const Tube& tube, const char* field, double value, double least, double most,
+                    const char* unit) {
+  if (value >= least && value <= most) return;
+  throw InputError({"", 0, fmt::format("{} of tube {}", field, tube.id)}, fmt::format("{}", value),
+                   fmt::format("a number from {} to {} {}", least, most, unit));
+}
+
+// ODE aborts the process if a mass or an inertia is not positive, or not after rounding.
+void require_physical(const Tube& tube) {
+  validate(tube);
+  require_within(tube, "mass", tube.mass, 1e-9, 1e9, "kg");
+  require_within(tube, "radius", tube.radius, 1e-5, 100, "m");
+  require_within(tube, "length", total_length(tube), 1e-6, 100, "m");
+  for (const Node& node : tube.nodes) {
+    for (const double coordinate : node.position) require_within(tube, "nodes", coordinate, -1000, 1000, "m");
+  }
 }
 
 dMass ode_mass(const MassProperties& properties) {
@@ -233,7 +244,7 @@ void World::Implementation::touch_geoms(dGeomID first, dGeomID second) const {
 World::World(const std::vector<Tube>& tubes, const Bin& bin, const SettleSettings& settings,
              std::uint64_t seed)
     : implementation_(std::make_unique<Implementation>()) {
-  for (const Tube& tube : tubes) require_mass(tube);
+  for (const Tube& tube : tubes) require_physical(tube);
   initialize_ode_once();
   Implementation& self = *implementation_;
   self.settings = settings;

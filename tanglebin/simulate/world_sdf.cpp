@@ -274,6 +274,7 @@ int largest_id(const std::vector<Tube>& tubes) {
 
 void write_world(std::ostream& out, const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera,
                  const SettleSettings& settle) {
+  validate(tubes);
   const std::vector<Color> colors = label_colors(largest_id(tubes));
   XMLPrinter xml;
   xml.PushHeader(false, true);

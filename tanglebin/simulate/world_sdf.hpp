@@ -17,7 +17,7 @@ namespace tanglebin {
 /// smaller friction of two touching solids applies. The tubes' ids must be 1, 2, … and distinct. A tube of
 /// unknown mass (0) gets 1 kg per metre of its centre line, like the paper's tubes. SDF only has cameras with
 /// square pixels and a centred principal point; of the focal lengths, the world gets fx. Throws InputError
-/// for a camera with a horizontal field of view below 0.1 rad, SDF's minimum.
+/// as validate(Tube) does, and for a camera with a horizontal field of view below 0.1 rad, SDF's minimum.
 void write_world(std::ostream& out, const std::vector<Tube>& tubes, const Bin& bin, const Camera& camera,
                  const SettleSettings& settle);
 

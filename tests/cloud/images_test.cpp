@@ -26,6 +26,15 @@ TEST(CloudFromDepths, HasAPointForEachPixelAtItsDepth) {
   EXPECT_EQ(cloud.points[5], Eigen::Vector3f(2, 0.5F, 4));
 }
 
+TEST(CloudFromDepths, ADepthThatIsNotPositiveIsNoMeasurement) {
+  const Intrinsics camera{.width = 2, .height = 2, .fx = 2, .fy = 2, .cx = 0.5, .cy = 0.5};
+  const float infinity = std::numeric_limits<float>::infinity();
+  const PointCloud cloud = cloud_from_depths({2, 2, {0, -1, infinity, 1}}, camera);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_TRUE(same_point(cloud.points[i], Eigen::Vector3f::Constant(nan))) << i;
+  EXPECT_EQ(cloud.points[3].z(), 1);
+}
+
 TEST(CloudFromDepths, APointIsSeenWhereItsPixelIs) {
   const Intrinsics intrinsics{.width = 40, .height = 30, .fx = 35, .fy = 36, .cx = 20.5, .cy = 14};
   const Camera camera = camera_with(intrinsics, Eigen::Isometry3d::Identity());

@@ -276,6 +276,16 @@ TEST(GenerateDataset, TakesUpTheJournalOfARunThatWasCutOff) {
   EXPECT_EQ(dataset_in(cut.path()), dataset_in(whole.path()));
 }
 
+TEST(GenerateDataset, ACaseThatTheRecipeDoesNotHaveIsRefusedBeforeAnythingIsWritten) {
+  const TemporaryDirectory directory;
+  const Recipe recipe = small_recipe();
+  for (const CaseId& id : {CaseId{"A", 99, 1}, CaseId{"A", 1, -1}, CaseId{"Z", 1, 1}}) {
+    EXPECT_EQ(complaint([&] { generate_dataset(recipe, {id}, directory / "new", 1); }),
+              "wanted: found '" + name_of(id) + "', expected a case of the recipe");
+    EXPECT_FALSE(std::filesystem::exists(directory / "new"));
+  }
+}
+
 TEST(GenerateDataset, AnotherRecipeIsNotLetIn) {
   const TemporaryDirectory directory;
   Recipe recipe = small_recipe();

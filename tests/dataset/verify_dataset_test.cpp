@@ -231,6 +231,10 @@ TEST_F(VerifyDataset, ChecksAndMissesOnlyTheWantedCases) {
   EXPECT_THAT(two.broken, ElementsAre(CaseId{"A", 1, 3}));
   EXPECT_EQ(two.faults.back().what, "1 of 2 cases: A1/3");
   for (const DatasetFault& fault : two.faults) EXPECT_NE(fault.where, "A1/plys/2.ply");
+  EXPECT_EQ(test::complaint([&] {
+              verify_dataset(path(), {.wanted = std::vector<CaseId>{{"A", 9, 1}}});
+            }),
+            "wanted: found 'A9/1', expected a case of the recipe");
 }
 
 /// A dataset of which one of two shards has been made.

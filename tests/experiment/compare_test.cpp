@@ -103,6 +103,24 @@ TEST(Compare, TakesTheMicroRecallForThatWithoutMixedPointsWhereNoneAreMarked) {
   EXPECT_DOUBLE_EQ(without_mixed.other, 0.75);
 }
 
+TEST(Compare, SaysNothingOfMixedPointsThatNoCloudMarks) {
+  Results results({"axis", "mine"});
+  for (const char* method : {"axis", "mine"}) results.add(method, 1, 0.3, 0.5);
+  for (const MeasureDifference& measure : compare(results.of("axis"), results.of("mine")).measures)
+    EXPECT_NE(measure.measure, "unmixed_recall");
+}
+
+TEST(Compare, NamesADirectoryThatIsMissingAndAMethodThatIsNotThere) {
+  Results results({"axis"});
+  results.add("axis", 1, 0.3, 0.5);
+  EXPECT_THAT(complaint([&] {
+                compare(results.of("axis"), {"/nowhere", "axis"});
+              }),
+              HasSubstr("/nowhere/experiment.json"));
+  EXPECT_THAT(complaint([&] { compare(results.of("axis"), results.of("mine")); }),
+              HasSubstr("method: found 'mine', expected one of its methods"));
+}
+
 TEST(Compare, AFailedRunFoundNothingAndASceneWithoutAVisibleTubeDoesNotCount) {
   Results results({"axis", "mine"});
   for (const int number : {1, 2}) results.add("axis", number, 0.3, 0.5);

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "tanglebin/base/error.hpp"
@@ -73,6 +74,27 @@ TEST(KnownScene, KnowsKindsOfTubesNotEachTube) {
   const KnownScene known = known_scene(recipe, {"A", 3, 1});
   ASSERT_EQ(known.kinds.size(), 1U);
   EXPECT_EQ(known.kinds[0].radius, recipe.sets[0].kinds[0].radius);
+}
+
+TEST(KnownScene, OfARandomRecipeHasTheNumbersOfTheCase) {
+  std::istringstream text(R"(
+[scanner]
+look_at = [0, 0, 0]
+distance = 2
+tilt_deg = 20
+azimuth_deg = { min = 0, max = 360 }
+[[set]]
+name = "A"
+tubes = [3]
+tube = { radius = { min = 0.01, max = 0.02 }, mass = 0.5, length = 0.5, bend_max_deg = 30 }
+)");
+  const Recipe recipe = read_recipe(text, "recipe.toml");
+  const CaseId id{"A", 3, 2};
+  const Recipe own = resolve(recipe, id, draw(recipe, id));
+  const KnownScene known = known_scene(recipe, id);
+  EXPECT_EQ(known.camera, own.camera);
+  EXPECT_NE(known.camera, recipe.camera);
+  EXPECT_EQ(known.kinds.at(0).radius, own.sets[0].kinds[0].radius);
 }
 
 TEST(KnownScene, KnowsTheRangeOfLengthsThatDifferFromTubeToTube) {

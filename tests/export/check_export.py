@@ -302,6 +302,7 @@ def check_bop(dataset, export):
                 whole.append(mask > 0)
                 view.expect_whole(i + 1, whole[-1])
                 assert info["px_count_all"] == (mask > 0).sum() and info["px_count_visib"] == (visible > 0).sum()
+                assert info["visib_fract"] == ((mask > 0) & (visible > 0)).sum() / max(1, (mask > 0).sum())
                 assert info["px_count_valid"] == ((mask > 0) & (depth > 0)).sum()
                 assert info["bbox_obj"] == box_of(mask) and info["bbox_visib"] == (box_of(visible) or [-1] * 4)
                 # The model in this pose is the tube in the scene.

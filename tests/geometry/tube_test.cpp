@@ -5,9 +5,12 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "tanglebin/generate/generate.hpp"
 #include "tests/geometry/example_tubes.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
@@ -35,6 +38,29 @@ TEST(Tube, HasACapsuleForEveryEdge) {
   EXPECT_EQ(all[1].b, Vector3d(0.1, 0.2, 0));
   EXPECT_EQ(all[1].radius, 0.0125);
   EXPECT_DOUBLE_EQ(total_length(tube), 0.3);
+}
+
+TEST(Tube, WhatIsNoTubeIsNamed) {
+  const Tube tube = test::tube_through({{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.2, 0}});
+  const auto complaint_of = [&](const auto& change) {
+    Tube changed = tube;
+    changed.id = 4;
+    change(changed);
+    return test::complaint([&] { validate(std::vector{tube, changed}); });
+  };
+  EXPECT_EQ(complaint_of([](Tube&) {}), "none");
+  EXPECT_EQ(complaint_of([](Tube& its) { its.radius = 0; }),
+            "radius of tube 4: found 0, expected a positive number of metres");
+  EXPECT_EQ(complaint_of([](Tube& its) { its.nodes[1].position.y() = std::nan(""); }),
+            "nodes of tube 4: found a position that is not finite, expected finite numbers");
+  EXPECT_EQ(complaint_of([](Tube& its) { its.edges[0].to = 1'000'000'000'000; }),
+            "edges of tube 4: found 1000000000000, expected the index of one of 3 nodes");
+  const std::string no_tree =
+      "edges of tube 4: found no tree, expected edges that connect all nodes without a loop";
+  EXPECT_EQ(complaint_of([](Tube& its) { its.edges.pop_back(); }), no_tree);
+  EXPECT_EQ(complaint_of([](Tube& its) { its.edges[1] = {1, 0, 2}; }), no_tree);
+  EXPECT_EQ(complaint_of([](Tube& its) { its = Tube{.id = 4, .radius = 1, .nodes = {}, .edges = {}}; }),
+            no_tree);
 }
 
 TEST(Tube, FitsItsBoundsTightly) {

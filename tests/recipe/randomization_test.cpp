@@ -508,6 +508,30 @@ TEST(Randomization, ANumberThatCannotHaveBeenDrawnIsAnError) {
             "settle.iterations: has not been drawn");
 }
 
+TEST(Randomization, WhatIsDrawnCannotBeSetInCode) {
+  Recipe recipe = read(R"([scanner]
+look_at = [0, 0, 0]
+distance = { min = 1.5, max = 2 }
+[[set]]
+name = "A"
+tubes = [2]
+tube = { radius = { min = 0.01, max = 0.02 }, mass = 0.5, length = 0.5, bend_max_deg = 30 }
+)");
+  recipe.seed = 5;
+  recipe.sets[0].cases = 3;
+  recipe.sets[0].kinds[0].mass = 0.7;
+  EXPECT_EQ(test::complaint([&] { validate(recipe); }), "none");
+  Recipe thin = recipe;
+  thin.sets[0].kinds[0].radius = 0.005;
+  EXPECT_EQ(
+      test::complaint([&] { validate(thin); }),
+      "set[0].tube.radius: found 0.005, expected 0.01, the lowest that cases draw: what is drawn cannot "
+      "be set in code, only in the recipe's text");
+  Recipe moved = recipe;
+  moved.camera.pose.translation().z() = 3;
+  EXPECT_THAT(test::complaint([&] { validate(moved); }), HasSubstr("what is drawn cannot be set in code"));
+}
+
 TEST(Randomization, ARecipeWithoutRangesDrawsNothing) {
   const Recipe recipe = read(
       "[[set]]\nname = \"A\"\ntubes = [1]\n[set.tube]\nradius = 0.0125\nmass = 0.5\n"

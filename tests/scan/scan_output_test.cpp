@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "tanglebin/cloud/label_colors.hpp"
 #include "tanglebin/geometry/labels.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
@@ -59,7 +59,10 @@ TEST(CloudFromScan, KnowsTheColorsOfTubesThatTheCameraDoesNotSee) {
 }
 
 TEST(CloudFromScan, RefusesALabelBeyondTheTubes) {
-  EXPECT_THROW(cloud_from_scan(small_scan(), CloudOf::tubes, 1), std::out_of_range);
+  for (const auto& cloud_of : {&cloud_from_scan, &organized_cloud_from_scan}) {
+    EXPECT_EQ(test::complaint([&] { cloud_of(small_scan(), CloudOf::tubes, 1, {}); }),
+              "tubes: found 1, expected at least 2, the largest label of the scan");
+  }
 }
 
 TEST(OrganizedCloudFromScan, CoversTheWholeImage) {
