@@ -13,6 +13,7 @@
 
 #include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/median.hpp"
 #include "tanglebin/model/locate/bin_fit.hpp"
 #include "tanglebin/model/locate/bin_parts.hpp"
 #include "tanglebin/model/locate/bin_search.hpp"
@@ -294,10 +295,15 @@ constexpr int few_pixels = 8;
 
 // Whether a part is seen where nothing hides it.
 bool is_shown(const Agreement& agreement, std::size_t part) {
-  constexpr double share = 0.4;
+  constexpr double share = 0.5;
   const int open = agreement.expected.at(part) - agreement.hidden.at(part);
   const int explained = agreement.explained.at(part);
   return explained >= few_pixels && explained >= share * open;
+}
+
+bool is_inner_side_shown(const Agreement& agreement, std::size_t wall) {
+  const std::size_t part = part_of(PartKind::inner, wall);
+  return is_shown(agreement, part) && 2 * agreement.hidden.at(part) < agreement.expected.at(part);
 }
 
 // A rim that was not measured is made up for by the inner side of its wall.
@@ -307,7 +313,7 @@ bool is_rim_missing(const Agreement& agreement, std::size_t wall) {
   const int expected = agreement.expected.at(rim);
   if (expected - agreement.hidden.at(rim) < few_pixels || is_shown(agreement, rim)) return false;
   return agreement.contradicted.at(rim) > contradicted_max * expected ||
-         !is_shown(agreement, part_of(PartKind::inner, wall));
+         !is_inner_side_shown(agreement, wall);
 }
 
 Fault fault_of_sides(const Agreement& agreement) {
@@ -343,11 +349,9 @@ double share_of_rim_in_image(const Task& task, const BinFit& fit) {
 Fault fault_of_image(const Task& task, const BinFit& fit, const Agreement& agreement) {
   constexpr double in_image_min = 0.4;
   const double in_image = share_of_rim_in_image(task, fit);
-  const auto is_wall_shown = [&](std::size_t wall) {
-    return is_shown(agreement, part_of(PartKind::inner, wall));
-  };
+  const auto is_seen_inside = [&](std::size_t wall) { return is_inner_side_shown(agreement, wall); };
   const bool are_walls_shown =
-      (is_wall_shown(0) || is_wall_shown(1)) && (is_wall_shown(2) || is_wall_shown(3));
+      (is_seen_inside(0) || is_seen_inside(1)) && (is_seen_inside(2) || is_seen_inside(3));
   if (in_image >= in_image_min || are_walls_shown) return std::nullopt;
   return fmt::format(
       "in the best pose of this bin, {:.0f} % of its rim is in the image, and too little of its walls is "
@@ -531,7 +535,21 @@ Located located_bin(const Support& support, const Camera& camera, const BinFit& 
   return located;
 }
 
+// A unit or a scale of another power of ten.
+void expect_scale(const View& view, const Bin& bin) {
+  constexpr double times = 30;
+  std::vector<double> depths;
+  for (const std::size_t pixel : view.sample(rays)) depths.push_back(view.points[pixel].z());
+  const double depth = median(std::move(depths));
+  if (depth < times * bin.length && times * depth > bin.length) return;
+  refuse(
+      fmt::format("the points are {:.3g} m from the camera, and the bin is {:.3g} m long: are unit and "
+                  "depth_scale those of the cloud?",
+                  depth, bin.length));
+}
+
 Located locate_bin(const View& view, const Support& support, const Camera& camera) {
+  expect_scale(view, support.bin);
   const std::vector<FlatPatch> patches = patches_of(view);
   const std::vector<FlatPlane> planes = planes_of(patches);
   if (planes.empty()) refuse("nothing flat is seen");
