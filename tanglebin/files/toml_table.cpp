@@ -101,6 +101,8 @@ void TomlSource::take_lines(const std::string& path, const std::string& original
 }
 
 toml::table parse_toml(const std::string& text, const std::string& name) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin a file with it
+  if (text.starts_with(byte_order_mark)) return parse_toml(text.substr(byte_order_mark.size()), name);
   try {
     return toml::parse(ascii(text), name);
   } catch (const toml::parse_error& error) {

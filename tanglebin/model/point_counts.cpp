@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "tanglebin/geometry/labels.hpp"
@@ -42,7 +43,9 @@ public:
       : view_(known.camera),
         around_(crop_box(known.support, settings.overhang)),
         parts_(solid_parts(known.support)),
-        near_(std::ranges::min(known.kinds, {}, &TubeKind::radius).radius / 2) {}
+        near_(std::ranges::min(known.kinds, {}, &TubeKind::radius).radius / 2),
+        lowest_(parts_.empty() ? -std::numeric_limits<double>::infinity()
+                               : std::min(parts_.front().min().z() + near_, -near_)) {}
 
   std::size_t& place_of(const Eigen::Vector3d& point, std::int32_t label, PointCounts& counts) const {
     if (!point.allFinite()) return counts.invalid;
@@ -51,7 +54,7 @@ public:
     if (!view_.is_inside(image)) return counts.outside_image;
     if (label > bin_label) return counts.on_tubes;
     if (label == bin_label) return counts.on_support;
-    if (!parts_.empty() && point.z() < parts_.front().min().z() + near_) return counts.below_support;
+    if (point.z() < lowest_) return counts.below_support;
     if (!around_.contains(point)) return counts.cropped;
     return is_near_support(point) ? counts.near_support : counts.unexplained;
   }
@@ -66,7 +69,8 @@ private:
   View view_;
   Eigen::AlignedBox3d around_;
   std::vector<Eigen::AlignedBox3d> parts_;
-  double near_;  // m
+  double near_;    // m
+  double lowest_;  // m, of a point that may be on or over the floor
 };
 
 }  // namespace

@@ -32,7 +32,7 @@ public:
       : known_(known),
         parts_(solid_parts(known.support)),
         around_(space_of(known.support)),
-        least_spread_(2 * std::ranges::min(known.kinds, {}, &TubeKind::radius).radius) {}
+        least_spread_(least_spread_of(known)) {}
 
   // The share of the points that the camera can see in the space of the tubes, and the share on the support.
   // Points that are nearly in one place show no tube, and a camera sees nothing from under a floor.
@@ -56,6 +56,14 @@ public:
 private:
   static constexpr double near = 0.005;  // m
   static constexpr double far = 20;      // m
+
+  // m: what is seen of tubes is no smaller than one is thick, and in a bin no mere spot.
+  static double least_spread_of(const KnownScene& known) {
+    constexpr double spot = 0.05;  // of the bin's length
+    const double thickness = 2 * std::ranges::min(known.kinds, {}, &TubeKind::radius).radius;
+    return known.support.shape == Support::Shape::bin ? std::max(thickness, spot * known.support.bin.length)
+                                                      : thickness;
+  }
 
   // m, root mean square distance from their mean. No motion here changes proportions.
   static double spread_of(const std::vector<Vector3d>& points, const Affine3d& motion) {
@@ -149,7 +157,8 @@ Remedy remedy_of(const Frame& told, const Frame& right, double unit, const Matri
     advice += (advice.empty() ? "" : ", and ") + text;
   };
   if (&told != &right) add("frame", fmt::format("in {}: {}", right.name, right.option));
-  if (unit < 1) add("unit", "in millimetres: --unit mm");
+  if (unit == 0.01) add("unit", "in centimetres, which must be written in metres or millimetres");
+  if (unit == 0.001) add("unit", "in millimetres: --unit mm");
   if (unit > 1) add("unit", "in metres: --unit m");
   if (!axes.isIdentity())
     add("axes", fmt::format("if their {} were the axes of {}, {}", text_of(axes), right.name, right.axes));
@@ -171,7 +180,7 @@ std::vector<Guess> guesses_of_frame(const KnownScene& known) {
   std::vector<Guess> all;
   for (const Frame& told : frames) {
     for (const Frame& right : frames) {
-      for (const double unit : {1.0, 0.001, 1000.0}) {
+      for (const double unit : {1.0, 0.001, 1000.0, 0.01}) {
         for (const Matrix3d& axes : exchanged_axes()) {
           const int mistakes = (&told != &right ? 1 : 0) + (unit != 1 ? 1 : 0) + mistakes_of(axes);
           if (mistakes == 0) continue;

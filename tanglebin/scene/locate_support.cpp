@@ -19,10 +19,15 @@ Located locate_with_any_wall(const PointCloud& cloud, Support bin, const Camera&
   };
   try {
     return measured();
-  } catch (const InputError&) {
+  } catch (const InputError& error) {
+    if (error.place().field != "support") throw;
     constexpr double thin = 0.003;  // m
     bin.bin.wall = thin;
-    return measured();
+    try {
+      return measured();
+    } catch (const InputError&) {
+      throw error;
+    }
   }
 }
 

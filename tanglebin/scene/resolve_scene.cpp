@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -40,18 +41,31 @@ double unit_of(const Scene& scene, const PointCloud& cloud, Notes& notes) {
                                smallest, largest));
 }
 
-// The points as they are, times the unit.
-PointCloud in_metres(const PointCloud& cloud, double unit) {
-  PointCloud scaled;
-  scaled.points = cloud.points;
-  if (unit != 1) {
-    for (Eigen::Vector3f& point : scaled.points) point = (unit * point.cast<double>()).cast<float>();
-  }
-  scaled.width = cloud.width;
-  scaled.height = cloud.height;
-  scaled.viewpoint = cloud.viewpoint;
-  if (scaled.viewpoint) scaled.viewpoint->translation() *= unit;
-  return scaled;
+PointCloud positions_of(const PointCloud& cloud) {
+  PointCloud positions;
+  positions.points = cloud.points;
+  positions.width = cloud.width;
+  positions.height = cloud.height;
+  positions.viewpoint = cloud.viewpoint;
+  return positions;
+}
+
+// To metres.
+void scale(PointCloud& cloud, double unit) {
+  if (unit == 1) return;
+  for (Eigen::Vector3f& point : cloud.points) point = (unit * point.cast<double>()).cast<float>();
+  if (cloud.viewpoint) cloud.viewpoint->translation() *= unit;
+}
+
+// Many programs write (0, 0, 0), where the sensor is, for a pixel without a measurement. One camera sees no
+// point twice, so several are none.
+void forget_zeros(PointCloud& cloud, Notes& notes) {
+  const auto is_zero = [](const Eigen::Vector3f& point) { return point == Eigen::Vector3f::Zero(); };
+  const auto zeros = std::ranges::count_if(cloud.points, is_zero);
+  if (zeros < 2) return;
+  std::ranges::replace_if(cloud.points, is_zero,
+                          Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+  notes.push_back(fmt::format("{} points at exactly (0, 0, 0) are taken for not measured", zeros));
 }
 
 /// A frame that the cloud may be in, and how well it shows an image there.
@@ -219,7 +233,15 @@ void move(PointCloud& cloud, const Isometry3d& motion) {
 RadiusEstimate radius_from(const PointCloud& cloud, const KnownScene& known,
                            const std::optional<LengthRange>& range, const std::function<void()>& at_place) {
   const RadiusRange radii = range ? RadiusRange{range->min, range->max} : RadiusRange{};
-  return estimate_radius(cloud, known, radii, at_place);
+  RadiusEstimate found = estimate_radius(cloud, known, radii, at_place);
+  constexpr double deviations = 3;
+  const double error = deviations * found.standard_error;
+  if (range && (found.radius < range->min - error || found.radius > range->max + error))
+    throw InputError({"", 0, "radius"},
+                     fmt::format("tubes of a radius of {:.5f} m, which the cloud shows", found.radius),
+                     fmt::format("the radius to be {} to {} m, as it is given", range->min, range->max));
+  if (range) found.radius = std::clamp(found.radius, range->min, range->max);
+  return found;
 }
 
 // A radius that is exactly known, or else 0.
@@ -258,7 +280,9 @@ void find_kinds(const Scene& scene, const std::function<void()>& at_place, Resol
 ResolvedScene resolve_without_tubes(const Scene& scene, const PointCloud& cloud) {
   validate(scene);
   ResolvedScene resolved;
-  resolved.cloud = in_metres(cloud, unit_of(scene, cloud, resolved.notes));
+  resolved.cloud = positions_of(cloud);
+  forget_zeros(resolved.cloud, resolved.notes);
+  scale(resolved.cloud, unit_of(scene, resolved.cloud, resolved.notes));
   const auto [camera, frame] = CameraSearch(scene.camera, resolved.cloud).find(resolved.notes);
   resolved.known.camera = camera;
   if (frame == CloudFrame::camera && resolved.known.camera.pose.matrix() != Eigen::Matrix4d::Identity())

@@ -102,7 +102,10 @@ Scene overridden(Scene scene, const Scene& more) {
   override_with(scene.camera.frame, more.camera.frame);
   override_with(scene.camera.unit, more.camera.unit);
   override_with(scene.camera.depth_scale, more.camera.depth_scale);
-  override_with(scene.support, more.support);
+  if (more.support) {
+    scene.support = more.support;
+    scene.wall_is_given = more.wall_is_given;
+  }
   if (!more.tubes.empty()) scene.tubes = more.tubes;
   return scene;
 }

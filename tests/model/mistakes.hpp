@@ -83,6 +83,7 @@ inline std::vector<Mistake> mistakes() {
        [](View& view) { move(view.cloud, Eigen::Affine3d(view.scene.camera.pose)); }, "frame", error,
        "in the world frame: --frame world"},
       {"millimetres", scale(1000), "unit", error, "in millimetres: --unit mm"},
+      {"centimetres", scale(100), "unit", error, "in centimetres"},
       {"told to be in millimetres", scale(0.001), "unit", error, "in metres: --unit m"},
       {"camera's frame and millimetres",
        [=](View& view) {
@@ -114,6 +115,8 @@ inline std::vector<Mistake> mistakes() {
          view.scene.support.bin.width = 0.3;
        },
        "bin", warning, "bin"},
+      {"the bin 20 mm beside its place", [](View& view) { view.scene.support.pose.translation().x() = 0.02; },
+       "bin", warning, "mm outwards of where the scene has it"},
       {"the bin 10 mm too low", [](View& view) { view.scene.support.pose.translation().z() = -0.01; },
        "floor", warning, "the floor is 10.0 mm above"},
       {"twice the radius: the diameter", [](View& view) { view.scene.kinds[0].radius *= 2; }, "radius",

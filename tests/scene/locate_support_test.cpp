@@ -43,6 +43,22 @@ TEST(LocateSupport, LeavesAWallAsItIsGiven) {
   EXPECT_EQ(locate_support(cell.scene, cell.cloud).scene.support->bin.wall, 0.02);
 }
 
+TEST(LocateSupport, SaysWhyTheLikelierWallDoesNotFit) {
+  Cell cell = cell_with_wall(0.02);
+  cell.scene.support->bin.height = 0.31;
+  const std::string refusal = test::complaint([&] { locate_support(cell.scene, cell.cloud); });
+  cell.scene.wall_is_given = false;
+  EXPECT_EQ(test::complaint([&] { locate_support(cell.scene, cell.cloud); }), refusal);
+}
+
+TEST(LocateSupport, SaysThatTheUnitCannotBeRight) {
+  Cell cell = cell_with_wall(0.02);
+  cell.scene.camera.pose->translation() *= 1000;
+  for (Eigen::Vector3f& point : cell.cloud.points) point *= 1000;
+  EXPECT_THAT(test::complaint([&] { locate_support(cell.scene, cell.cloud); }),
+              testing::HasSubstr("are unit and depth_scale those of the cloud?"));
+}
+
 TEST(LocateSupport, NeedsASupport) {
   Cell cell = cell_with_wall(0.02);
   cell.scene.support.reset();

@@ -230,6 +230,34 @@ TEST_F(ToldScene, PointsThatAreNotThereDoNotCount) {
   EXPECT_THAT(resolved.notes, Contains(HasSubstr("millimetres")));
 }
 
+TEST_F(ToldScene, PointsWhereTheSensorIsWereNotMeasured) {
+  PointCloud points = in_camera_frame(organized());
+  for (Eigen::Vector3f& point : points.points) {
+    if (!point.allFinite()) point.setZero();
+  }
+  const ResolvedScene resolved = resolve(bin_and_tubes(), points);
+  EXPECT_THAT(resolved.notes, Contains(HasSubstr("points at exactly (0, 0, 0) are taken for not measured")));
+  EXPECT_NEAR(resolved.known.camera.fx, camera().fx, 0.1);
+  const auto is_zero = [](const Eigen::Vector3f& point) { return point.isZero(); };
+  EXPECT_EQ(std::ranges::count_if(resolved.cloud.points, is_zero), 0);
+}
+
+TEST_F(ToldScene, ARadiusThatTheCloudDoesNotShowIsRefused) {
+  Scene scene = with_camera(whole_camera());
+  for (const LengthRange& other : {LengthRange{0.004, 0.01}, LengthRange{0.014, 0.03}}) {
+    scene.tubes = {{.radius = other}};
+    EXPECT_THAT(complaint([&] { resolve(scene, cloud()); }), HasSubstr("radius: "));
+  }
+  scene.tubes = {{.radius = LengthRange{0.011, 0.014}}};
+  EXPECT_NEAR(resolve(scene, cloud()).known.kinds.at(0).radius, 0.0125, 0.0005);
+}
+
+TEST(Overridden, ASupportSaysItselfWhetherItsWallIsGiven) {
+  const Scene more{.support = Support{}, .wall_is_given = false};
+  EXPECT_FALSE(overridden({}, more).wall_is_given);
+  EXPECT_FALSE(overridden(more, {}).wall_is_given);
+}
+
 TEST_F(ToldScene, OfAnEmptyCloudNothingIsGuessed) {
   PointCloud empty;
   const ResolvedScene resolved = resolve(with_camera(whole_camera()), empty);

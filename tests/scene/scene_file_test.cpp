@@ -73,6 +73,11 @@ ends = "flat"
   EXPECT_TRUE(scene.tubes[0].flat_ends);
 }
 
+TEST(SceneFile, MayBeginWithAByteOrderMark) {
+  std::istringstream in("\xEF\xBB\xBF[[tube]]\nradius = 0.01\n");
+  EXPECT_EQ(read_scene(in, "scene.toml", "").tubes.at(0).radius, (LengthRange{0.01, 0.01}));
+}
+
 TEST(SceneFile, MayBeEmpty) {
   EXPECT_TRUE(is_empty(read("")));
   EXPECT_EQ(write(Scene{}), "");

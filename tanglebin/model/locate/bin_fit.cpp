@@ -355,6 +355,14 @@ Gates narrowed(const std::vector<Observation>& observations, double margin) {
   return gates;
 }
 
+// What scatters more than points on a surface do is something else near it, such as tubes at a wall.
+void drop_clutter(std::vector<Observation>& observations, const BinToFit& known) {
+  const Spreads spreads = spreads_of(observations);
+  std::erase_if(observations, [&](const Observation& observation) {
+    return spreads.at(observation.kind) > closeness_of(known);
+  });
+}
+
 State start(const BinToFit& known, const Isometry3d& pose) {
   return {.pose = pose, .bin = known.bin, .gap = likely_gap};
 }
@@ -416,6 +424,12 @@ void add_error_of_calibration(BinFit& fit) {
 
 }  // namespace
 
+double closeness_of(const BinToFit& known) {
+  constexpr double least = 0.003;
+  constexpr double deviations = 4;
+  return least + deviations * known.noise + known.margin;
+}
+
 Isometry3d moved_near(const View& view, const BinToFit& known, const Isometry3d& pose) {
   constexpr std::size_t points = 6000;
   State state = start(known, pose);
@@ -438,6 +452,7 @@ BinFit fit_bin(const View& view, const BinToFit& known, const Isometry3d& pose) 
   for (int round = 0; round < rounds; ++round) {
     if (round == rounds_with_same_edges) edges = edges_near(view, known, state);
     observations = observe(state, points, edges, gates, true);
+    drop_clutter(observations, known);
     weigh(observations, gates, shared);
     shared = shared_error(observations);
     gates = narrowed(observations, known.margin);

@@ -18,6 +18,9 @@ struct BinToFit {
   double noise;   ///< m, RMS distance of points from their surface
 };
 
+/// So near to a surface of the bin (m), points are on it.
+double closeness_of(const BinToFit& known);
+
 /// The points on a surface of the bin.
 struct PartFit {
   int points = 0;

@@ -13,6 +13,7 @@
 
 #include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/median.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/model/locate/bin_fit.hpp"
 #include "tanglebin/model/locate/bin_parts.hpp"
@@ -55,15 +56,8 @@ struct Candidate {
   int score;
 };
 
-double closeness_of(const BinToFit& known) {
-  constexpr double least = 0.003;
-  constexpr double deviations = 4;
-  return least + deviations * known.noise + known.margin;
-}
-
-Candidate candidate_at(const Task& task, const Isometry3d& pose) {
-  std::vector<PixelVerdict> said =
-      verdicts(task.view, task.pixels, task.known.bin, pose, closeness_of(task.known));
+Candidate candidate_at(const Task& task, const Bin& bin, const Isometry3d& pose) {
+  std::vector<PixelVerdict> said = verdicts(task.view, task.pixels, bin, pose, closeness_of(task.known));
   const int score = score_of(said);
   return {pose, std::move(said), score};
 }
@@ -111,7 +105,7 @@ std::vector<Candidate> candidates_of(const Task& task, const std::vector<Isometr
   std::vector<Candidate> candidates;
   candidates.reserve(poses.size());
   for (const Isometry3d& pose : poses)
-    candidates.push_back(candidate_at(task, moved_near(task.view, task.known, pose)));
+    candidates.push_back(candidate_at(task, task.known.bin, moved_near(task.view, task.known, pose)));
   std::ranges::stable_sort(candidates,
                            [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
   return candidates;
@@ -286,14 +280,143 @@ int advantage(const Candidate& first, const Candidate& second) {
   return sum;
 }
 
-// Of the best candidate that is possible and determined; else of the best.
-BinFit best_fit(const Task& task, const std::vector<Candidate>& candidates) {
+/// A bin fitted to the view, and what the view says of it with the sizes that it has there.
+struct Fitted {
+  BinFit fit;
+  Candidate seen;
+};
+
+Fitted fitted_near(const Task& task, const Candidate& candidate) {
+  BinFit fit = fit_bin(task.view, task.known, candidate.pose);
+  Candidate seen = candidate_at(task, fit.sizes, fit.pose);
+  return {std::move(fit), std::move(seen)};
+}
+
+constexpr int few_pixels = 8;
+
+// Whether a part is seen where nothing hides it.
+bool is_shown(const Agreement& agreement, std::size_t part) {
+  constexpr double share = 0.5;
+  const int open = agreement.expected.at(part) - agreement.hidden.at(part);
+  const int explained = agreement.explained.at(part);
+  return explained >= few_pixels && explained >= share * open;
+}
+
+bool is_inner_side_shown(const Agreement& agreement, std::size_t wall) {
+  const std::size_t part = part_of(PartKind::inner, wall);
+  return is_shown(agreement, part) && 2 * agreement.hidden.at(part) < agreement.expected.at(part);
+}
+
+// A rim that was not measured is made up for by the inner side of its wall.
+bool is_rim_missing(const Agreement& agreement, std::size_t wall) {
+  constexpr double contradicted_max = 0.3;
+  const std::size_t rim = part_of(PartKind::rim, wall);
+  const int expected = agreement.expected.at(rim);
+  if (expected - agreement.hidden.at(rim) < few_pixels || is_shown(agreement, rim)) return false;
+  return agreement.contradicted.at(rim) > contradicted_max * expected ||
+         !is_inner_side_shown(agreement, wall);
+}
+
+Fault fault_of_sides(const Agreement& agreement) {
+  for (std::size_t wall = 0; wall < 4; ++wall) {
+    if (!is_rim_missing(agreement, wall)) continue;
+    const WallCounts rim = counts_of_wall(agreement, wall, true);
+    return fmt::format(
+        "the rim of {} is not where the sizes have it: of its pixels, {:.0f} % show it, {:.0f} % something "
+        "in "
+        "front of it, {:.0f} % something behind it and {:.0f} % nothing",
+        name_of_wall(wall), percent(rim.explained, rim.expected), percent(rim.hidden, rim.expected),
+        percent(rim.contradicted, rim.expected),
+        percent(rim.expected - rim.explained - rim.hidden - rim.contradicted, rim.expected));
+  }
+  return std::nullopt;
+}
+
+double share_of_rim_in_image(const Task& task, const BinFit& fit) {
+  constexpr int steps = 100;
+  const Vector3d corner((fit.sizes.length + fit.sizes.wall) / 2, (fit.sizes.width + fit.sizes.wall) / 2,
+                        fit.sizes.height);
+  int in_image = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double along = 2 * (i + 0.5) / steps - 1;
+    for (const Vector3d& place :
+         {Vector3d(along, -1, 1), Vector3d(along, 1, 1), Vector3d(-1, along, 1), Vector3d(1, along, 1)})
+      in_image += pixel_of(task.view.camera, fit.pose * place.cwiseProduct(corner)) ? 1 : 0;
+  }
+  return in_image / (4.0 * steps);
+}
+
+// A small part of the rim may be anything straight, unless the walls under it are seen too.
+Fault fault_of_image(const Task& task, const BinFit& fit, const Agreement& agreement) {
+  constexpr double in_image_min = 0.4;
+  const double in_image = share_of_rim_in_image(task, fit);
+  const auto is_seen_inside = [&](std::size_t wall) { return is_inner_side_shown(agreement, wall); };
+  const bool are_walls_shown =
+      (is_seen_inside(0) || is_seen_inside(1)) && (is_seen_inside(2) || is_seen_inside(3));
+  if (in_image >= in_image_min || are_walls_shown) return std::nullopt;
+  return fmt::format(
+      "in the best pose of this bin, {:.0f} % of its rim is in the image, and too little of its walls is "
+      "seen",
+      100 * in_image);
+}
+
+// Where a ray to a point passes the plane of the rim, along the floor from the bin's middle, m.
+Vector3d crossing_of_rim(const Isometry3d& from_camera, const Vector3d& point, double height) {
+  const Vector3d camera = from_camera.translation();
+  const Vector3d to_point = from_camera * point - camera;
+  return camera + (height - camera.z()) / to_point.z() * to_point;
+}
+
+// Of the points that are seen through the bin's opening beside its rim, the share that is level with it.
+double level_share(const Task& task, const Fitted& found) {
+  constexpr double border = 0.1;  // of the bin's width
+  const Bin& bin = found.fit.sizes;
+  const Isometry3d from_camera = found.fit.pose.inverse(Eigen::Isometry);
+  int beside = 0;
+  int level = 0;
+  for (std::size_t i = 0; i < task.pixels.size(); ++i) {
+    const auto& [part, verdict] = found.seen.verdicts[i];
+    if (!part || verdict == Verdict::none) continue;
+    const Vector3d point = task.view.points[task.pixels[i]].cast<double>();
+    const Vector3d opening = crossing_of_rim(from_camera, point, bin.height);
+    const double inset =
+        std::min(bin.length / 2 - std::abs(opening.x()), bin.width / 2 - std::abs(opening.y()));
+    if (inset < 0 || inset > border * bin.width) continue;
+    ++beside;
+    const double above_rim = (from_camera * point).z() - bin.height;
+    if (verdict == Verdict::hidden && std::abs(above_rim) < closeness_of(task.known)) ++level;
+  }
+  return beside == 0 ? 0 : static_cast<double>(level) / beside;
+}
+
+// A surface that goes on from the rim over the opening is a floor or a table.
+Fault fault_of_opening(const Task& task, const Fitted& found) {
+  constexpr double level_max = 0.3;
+  const double level = level_share(task, found);
+  if (level <= level_max) return std::nullopt;
+  return fmt::format(
+      "the best place for the rim is on something flat: inside of it, {:.0f} % of what is seen beside it is "
+      "level with it",
+      100 * level);
+}
+
+// Why a bin cannot be where it was fitted.
+Fault fault_of(const Task& task, const Fitted& found) {
+  const Agreement agreement = agreement_of(found.seen.verdicts);
+  if (Fault fault = fault_of(agreement, task.known.bin)) return fault;
+  if (Fault fault = fault_of_sides(agreement)) return fault;
+  if (Fault fault = fault_of_image(task, found.fit, agreement)) return fault;
+  return fault_of_opening(task, found);
+}
+
+// At the best candidate at which a bin can be and is determined; else at the best.
+Fitted best_fitted(const Task& task, const std::vector<Candidate>& candidates) {
   for (const Candidate& candidate : candidates) {
     if (!is_possible(candidate, task.known.bin)) continue;
-    BinFit fit = fit_bin(task.view, task.known, candidate.pose);
-    if (is_determined(task.known.bin, fit)) return fit;
+    Fitted found = fitted_near(task, candidate);
+    if (is_determined(task.known.bin, found.fit) && !fault_of(task, found)) return found;
   }
-  return fit_bin(task.view, task.known, candidates.front().pose);
+  return fitted_near(task, candidates.front());
 }
 
 bool are_same(const Bin& bin, const Isometry3d& first, const Isometry3d& second) {
@@ -311,9 +434,10 @@ void expect_no_rival(const Task& task, const Candidate& best, const std::vector<
     if (are_same(bin, best.pose, rival.pose) || !is_possible(rival, bin)) continue;
     if (rival.score < as_good * best.score) continue;
     if (advantage(rival, best) < as_good * advantage(best, rival)) continue;
-    const BinFit fit = fit_bin(task.view, task.known, rival.pose);
-    if (!is_determined(bin, fit) || are_same(bin, best.pose, fit.pose)) continue;
-    const auto [distance, angle] = difference(bin, best.pose, fit.pose);
+    const Fitted found = fitted_near(task, rival);
+    if (!is_determined(bin, found.fit) || are_same(bin, best.pose, found.fit.pose)) continue;
+    if (fault_of(task, found)) continue;
+    const auto [distance, angle] = difference(bin, best.pose, found.fit.pose);
     refuse(fmt::format("two poses fit equally well; one is {:.0f} mm and {:.0f}° from the other",
                        1e3 * distance, angle / degree));
   }
@@ -412,7 +536,21 @@ Located located_bin(const Support& support, const Camera& camera, const BinFit& 
   return located;
 }
 
+// A unit or a scale of another power of ten.
+void expect_scale(const View& view, const Bin& bin) {
+  constexpr double times = 30;
+  std::vector<double> depths;
+  for (const std::size_t pixel : view.sample(rays)) depths.push_back(view.points[pixel].z());
+  const double depth = median(std::move(depths));
+  if (depth < times * bin.length && times * depth > bin.length) return;
+  refuse(
+      fmt::format("the points are {:.3g} m from the camera, and the bin is {:.3g} m long: are unit and "
+                  "depth_scale those of the cloud?",
+                  depth, bin.length));
+}
+
 Located locate_bin(const View& view, const Support& support, const Camera& camera) {
+  expect_scale(view, support.bin);
   const std::vector<FlatPatch> patches = patches_of(view);
   const std::vector<FlatPlane> planes = planes_of(patches);
   if (planes.empty()) refuse("nothing flat is seen");
@@ -423,15 +561,14 @@ Located locate_bin(const View& view, const Support& support, const Camera& camer
       view, patches, planes, support.bin, std::max(least, deviations * task.known.noise) + support.margin);
   if (poses.empty()) refuse("no plane that faces the camera is seen");
   const std::vector<Candidate> candidates = candidates_of(task, poses);
-  const BinFit fit = best_fit(task, candidates);
-  const Candidate best = candidate_at(task, fit.pose);
-  const Agreement agreement = agreement_of(best.verdicts);
-  expect_sizes(support.bin, support.margin, fit.sizes);
-  if (const Fault fault = fault_of(agreement, support.bin)) refuse(*fault);
-  expect_no_higher_floor(planes, support.bin, fit.pose, agreement);
-  expect_determined(support.bin, fit);
-  expect_no_rival(task, best, candidates);
-  return located_bin(support, camera, fit, agreement);
+  const Fitted found = best_fitted(task, candidates);
+  const Agreement agreement = agreement_of(found.seen.verdicts);
+  expect_sizes(support.bin, support.margin, found.fit.sizes);
+  if (const Fault fault = fault_of(task, found)) refuse(*fault);
+  expect_no_higher_floor(planes, support.bin, found.fit.pose, agreement);
+  expect_determined(support.bin, found.fit);
+  expect_no_rival(task, found.seen, candidates);
+  return located_bin(support, camera, found.fit, agreement);
 }
 
 // The lowest large plane.

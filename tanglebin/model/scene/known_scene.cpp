@@ -65,7 +65,8 @@ void validate(const KnownScene& known) {
     if (known.support.shape == Support::Shape::bin) validate_fit(kind, known.support.bin);
     if (!radii.insert(kind.radius).second)
       throw InputError({"", 0, "radius"}, fmt::format("{} m for two kinds", kind.radius),
-                       "a different radius for each kind");
+                       "a different radius for each kind; tubes of several lengths are one kind, with the "
+                       "range of its lengths: length = { min, max }");
   }
 }
 

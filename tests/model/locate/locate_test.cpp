@@ -157,16 +157,17 @@ TEST(Locate, IsNotMisledByTheTableAroundTheBin) {
   expect_near(located_without_guess(scan).support.pose, Isometry3d::Identity(), 0.0005, 0.05);
 }
 
-TEST(Locate, FindsABinThroughARealisticScannerAndSaysHowWell) {
-  const Bin bin;
-  const std::vector<Tube> tubes = some_tubes(6, bin);
-  Camera camera = camera_over(15, 1.5);
+ScanOfBin realistic_scan_of(const Bin& bin, const std::vector<Tube>& tubes, const Camera& camera) {
   const Sensor sensor = sensor_preset("zivid-one-plus-l");
-  const ScanOfBin scan_of_bin{{.bin = bin},
-                              camera,
-                              cloud_from_scan(scan(tubes, bin, camera, sensor, test::seed),
-                                              CloudOf::tubes_and_bin, static_cast<int>(tubes.size()))};
-  const Located located = located_without_guess(scan_of_bin);
+  return {{.bin = bin},
+          camera,
+          cloud_from_scan(scan(tubes, bin, camera, sensor, test::seed), CloudOf::tubes_and_bin,
+                          static_cast<int>(tubes.size()))};
+}
+
+TEST(Locate, FindsABinThroughARealisticScannerAndSaysHowWell) {
+  const ScanOfBin scan = realistic_scan_of({}, some_tubes(6, {}), camera_over(15, 1.5));
+  const Located located = located_without_guess(scan);
   expect_near(located.support.pose, Isometry3d::Identity(), 0.002, 0.3);
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_GT(located.position_sd[axis], 0);
@@ -190,6 +191,32 @@ TEST(Locate, RefusesABinOfOtherSizes) {
     scan.support.bin = other;
     EXPECT_THAT(refusal(scan), HasSubstr("not located"))
         << other.length << ' ' << other.width << ' ' << other.height;
+  }
+}
+
+// Turned by 90°, such a bin has two walls on true ones, and the others where nothing is measured.
+TEST(Locate, RefusesTheOuterSizesOfABin) {
+  const Bin bin{.length = 0.6, .width = 0.4, .height = 0.2, .wall = 0.01};
+  ScanOfBin scan = realistic_scan_of(bin, some_tubes(12, bin), camera_over(12, 1.6));
+  scan.support.bin = {.length = 0.62, .width = 0.42, .height = 0.2, .wall = 0.02};
+  EXPECT_THAT(refusal(scan), HasSubstr("not located"));
+}
+
+TEST(Locate, TakesNoPartOfATableForARim) {
+  ScanOfBin scan = realistic_scan_of(test::wide_bin(), some_tubes(8, {}), camera_over(12, 1.2));
+  scan.support.bin = {.length = 0.3, .width = 0.2, .height = 0.1};
+  EXPECT_THAT(refusal(scan), HasSubstr("not located"));
+}
+
+// The image ends some centimetres inside of the bin.
+TEST(Locate, RefusesABinWhoseRimIsOutsideOfTheImage) {
+  const Bin bin{.length = 0.6, .width = 0.4, .height = 0.2, .wall = 0.01};
+  for (const double inside : {0.02, 0.04, 0.06}) {
+    ScanOfBin scan = realistic_scan_of(bin, some_tubes(4, bin), camera_over(12, 1.6));
+    std::erase_if(scan.cloud.points, [&](const Eigen::Vector3f& point) {
+      return std::abs(point.x()) > bin.length / 2 - inside || std::abs(point.y()) > bin.width / 2 - inside;
+    });
+    EXPECT_THAT(refusal(scan), HasSubstr("not located")) << inside;
   }
 }
 
