@@ -322,9 +322,8 @@ Fault fault_of_sides(const Agreement& agreement) {
     if (!is_rim_missing(agreement, wall)) continue;
     const WallCounts rim = counts_of_wall(agreement, wall, true);
     return fmt::format(
-        "the rim of {} is not where the sizes have it: of its pixels, {:.0f} % show it, {:.0f} % something "
-        "in "
-        "front of it, {:.0f} % something behind it and {:.0f} % nothing",
+        "the rim of {} is not where the sizes have it: of its pixels, {:.0f} % show it, {:.0f} % "
+        "something in front of it, {:.0f} % something behind it and {:.0f} % nothing",
         name_of_wall(wall), percent(rim.explained, rim.expected), percent(rim.hidden, rim.expected),
         percent(rim.contradicted, rim.expected),
         percent(rim.expected - rim.explained - rim.hidden - rim.contradicted, rim.expected));
@@ -355,8 +354,8 @@ Fault fault_of_image(const Task& task, const BinFit& fit, const Agreement& agree
       (is_seen_inside(0) || is_seen_inside(1)) && (is_seen_inside(2) || is_seen_inside(3));
   if (in_image >= in_image_min || are_walls_shown) return std::nullopt;
   return fmt::format(
-      "in the best pose of this bin, {:.0f} % of its rim is in the image, and too little of its walls is "
-      "seen",
+      "in the best pose of this bin, {:.0f} % of its rim is in the image, and too little of its walls "
+      "is seen",
       100 * in_image);
 }
 
