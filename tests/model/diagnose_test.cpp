@@ -136,6 +136,17 @@ TEST(Diagnose, IsNotTroubledByTheTableThatTheBinStandsOn) {
   EXPECT_EQ(text_of(model.findings), "");
 }
 
+TEST(Diagnose, CountsNoPointOfAThinNoisyFloorAsUnderIt) {
+  View view = right_view();
+  view.scene.support.bin.wall = 0.002;
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(0, 0.0015F);
+  for (Vector3f& point : view.cloud.points) point.z() += noise(random);
+  const auto deep =
+      std::ranges::count_if(view.cloud.points, [](const Vector3f& point) { return point.z() < -0.006F; });
+  EXPECT_LE(model_of(view).counts.below_support, static_cast<std::size_t>(deep));
+}
+
 // Of the four sides of its rim, the scanner measured one.
 TEST(Diagnose, IsNotTroubledByARimThatWasNotMeasured) {
   View view = right_view();
