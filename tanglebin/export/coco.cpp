@@ -148,6 +148,7 @@ void write_annotation_file(const std::vector<ExportUnit>& units, std::size_t ind
 
 std::vector<std::string> common_files() {
   std::vector<std::string> files;
+  files.reserve(annotation_files.size());
   for (const AnnotationFile& file : annotation_files) files.emplace_back(file.path);
   return files;
 }

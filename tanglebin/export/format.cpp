@@ -17,6 +17,7 @@ Format file_per_view(const Recipe& recipe, const std::string& extension,
   return {.files_of =
               [=, all = scanners(recipe)](const ExportUnit& unit) {
                 std::vector<std::string> files;
+                files.reserve(all.size());
                 for (const Scanner& scanner : all)
                   files.push_back(path_of_view(unit.cases.front(), scanner.name, extension));
                 return files;
