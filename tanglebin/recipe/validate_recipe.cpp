@@ -18,6 +18,7 @@
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/recipe/case_id.hpp"
 #include "tanglebin/recipe/randomization.hpp"
+#include "tanglebin/recipe/recipe_tree.hpp"
 
 namespace tanglebin {
 namespace {
