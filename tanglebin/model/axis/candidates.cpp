@@ -40,7 +40,7 @@ bool is_false_speck(const AxisSteps& steps, const std::vector<std::size_t>& memb
 // The surface is a tube's, as far as one tube can tell. On two sides of a box, the distances from the axis
 // go with twice the angle; on a wall that is seen from its edge, nothing faces the sensor.
 bool looks_like_a_tube(const TubeSurface& surface, const Support& support) {
-  constexpr double ovality_max = 0.5;
+  constexpr double ovality_max = 0.3;
   constexpr double facing_min = 0.3;
   if (surface.ovality > ovality_max || surface.facing < facing_min) return false;
   if (!surface.roundness) return support.shape == Support::Shape::plane;
@@ -69,7 +69,7 @@ double usual_scatter(const std::vector<std::vector<Candidate>>& of_kinds) {
 }
 
 bool scatters_as_usual(const Candidate& candidate, double usual) {
-  constexpr double exact = 0.015;  // radii
+  constexpr double exact = 0.01;  // radii
   constexpr double factor_max = 2;
   return candidate.surface.scatter <= std::max(factor_max * usual, exact * candidate.tube.radius);
 }
