@@ -27,11 +27,11 @@ std::vector<double> slopes(int pixels, double focal_length, double principal_poi
   return result;
 }
 
-double measured(double depth) {
-  return std::isfinite(depth) && depth > 0 ? depth : std::numeric_limits<double>::quiet_NaN();
-}
-
 }  // namespace
+
+float measured_depth(float depth) {
+  return std::isfinite(depth) && depth > 0 ? depth : std::numeric_limits<float>::quiet_NaN();
+}
 
 PointCloud cloud_from_depths(const DepthImage& image, const Intrinsics& intrinsics) {
   check_size(image, intrinsics);
@@ -43,7 +43,7 @@ PointCloud cloud_from_depths(const DepthImage& image, const Intrinsics& intrinsi
   cloud.points.reserve(image.depths.size());
   for (std::size_t row = 0; row < cloud.height; ++row) {
     for (std::size_t column = 0; column < cloud.width; ++column) {
-      const double depth = measured(image.depths[row * cloud.width + column]);
+      const double depth = measured_depth(image.depths[row * cloud.width + column]);
       cloud.points.emplace_back(
           Eigen::Vector3d(across[column] * depth, down[row] * depth, depth).cast<float>());
     }

@@ -15,6 +15,9 @@ struct DepthImage {
   std::vector<float> depths;  ///< m; NaN if nothing was measured
 };
 
+/// The depth (m) if it is a measurement, a finite positive number; else NaN.
+float measured_depth(float depth);
+
 /// Labels, row by row (geometry/labels.hpp).
 struct LabelImage {
   int width;

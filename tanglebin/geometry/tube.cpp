@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
-#include <numeric>
 
 #include "tanglebin/base/expect.hpp"
 
@@ -14,17 +14,11 @@ namespace {
 // A tube's edges, which end at its nodes, one by one join parts that were apart.
 bool is_tree(const Tube& tube) {
   if (tube.edges.size() + 1 != tube.nodes.size()) return false;
-  std::vector<std::size_t> parents(tube.nodes.size());
-  std::iota(parents.begin(), parents.end(), std::size_t{0});
-  const auto root_of = [&](std::size_t node) {
-    while (parents[node] != node) node = parents[node] = parents[parents[node]];
-    return node;
-  };
+  boost::disjoint_sets_with_storage<> parts(tube.nodes.size());
   return std::ranges::all_of(tube.edges, [&](const Edge& edge) {
-    const std::size_t from = root_of(edge.from);
-    const std::size_t to = root_of(edge.to);
-    parents[from] = to;
-    return from != to;
+    if (parts.find_set(edge.from) == parts.find_set(edge.to)) return false;
+    parts.union_set(edge.from, edge.to);
+    return true;
   });
 }
 
@@ -35,9 +29,7 @@ void expect_of_tube(bool holds, const char* field, const Tube& tube, const std::
 
 }  // namespace
 
-void validate(const Tube& tube) {
-  expect_of_tube(std::isfinite(tube.radius) && tube.radius > 0, "radius", tube,
-                 fmt::format("{}", tube.radius), "a positive number of metres");
+void validate_lines(const Tube& tube) {
   for (const Node& node : tube.nodes) {
     expect_of_tube(node.position.allFinite(), "nodes", tube, "a position that is not finite",
                    "finite numbers");
@@ -47,6 +39,12 @@ void validate(const Tube& tube) {
     expect_of_tube(last < tube.nodes.size(), "edges", tube, fmt::format("{}", last),
                    fmt::format("the index of one of {} nodes", tube.nodes.size()));
   }
+}
+
+void validate(const Tube& tube) {
+  expect_of_tube(std::isfinite(tube.radius) && tube.radius > 0, "radius", tube,
+                 fmt::format("{}", tube.radius), "a positive number of metres");
+  validate_lines(tube);
   expect_of_tube(is_tree(tube), "edges", tube, "no tree", "edges that connect all nodes without a loop");
 }
 

@@ -39,6 +39,9 @@ struct Tube {
 void validate(const Tube& tube);
 void validate(const std::vector<Tube>& tubes);
 
+/// Checks only the centre lines, which may be in pieces: positions that are finite, edges between nodes.
+void validate_lines(const Tube& tube);
+
 /// Where the cylinder of an edge is, which follows from its two nodes.
 struct EdgeFrame {
   Eigen::Vector3d centre;       ///< m, the midpoint of the two nodes

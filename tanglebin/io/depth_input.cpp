@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <istream>
-#include <limits>
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
@@ -47,9 +46,7 @@ double steps_of_integers(std::optional<double> steps_per_metre, const std::strin
 }
 
 float depth_of(double value, double steps_per_metre) {
-  const auto depth = static_cast<float>(value / steps_per_metre);
-  const bool is_depth = depth > 0 && std::isfinite(depth);
-  return is_depth ? depth : std::numeric_limits<float>::quiet_NaN();
+  return measured_depth(static_cast<float>(value / steps_per_metre));
 }
 
 DepthImage read_png(std::istream& in, const std::string& name, std::optional<double> steps_per_metre) {

@@ -1,7 +1,5 @@
 #include "tanglebin/score/score_tubes.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -9,7 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tanglebin/base/expect.hpp"
 #include "tanglebin/base/median.hpp"
 #include "tanglebin/score/centre_line.hpp"
 #include "tanglebin/score/joins.hpp"
@@ -181,21 +178,11 @@ std::int64_t count_found(const std::vector<Junction>& truth, const std::vector<J
   });
 }
 
-// All that is asked of a modelled tube: it may be in pieces, and its radius does not matter.
-void expect_lines(const Tube& tube) {
-  for (const Node& node : tube.nodes)
-    expect(node.position.allFinite(), fmt::format("nodes of tube {}", tube.id),
-           "a position that is not finite", "finite numbers");
-  for (const Edge& edge : tube.edges)
-    expect(std::max(edge.from, edge.to) < tube.nodes.size(), fmt::format("edges of tube {}", tube.id),
-           "an edge that ends at no node", "indices of nodes");
-}
-
 }  // namespace
 
 TubesScore score_tubes(const std::vector<Tube>& truth, const std::vector<Tube>& modelled) {
   validate(truth);
-  for (const Tube& tube : modelled) expect_lines(tube);
+  for (const Tube& tube : modelled) validate_lines(tube);
   const std::vector<CentreLine> lines = centre_lines(truth);
   const double covered = coverage(lines, modelled);
   const std::vector<Error> modelled_errors = errors(lines, modelled);

@@ -1,7 +1,8 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Fails where a room includes a header of a room that cmake/rooms.cmake does not allow it, where that list has a circle or
-# an edge that nobody uses, where docs/architecture.md shows another list, and where a room has more than 4,000 lines.
+# an edge that nobody uses, where docs/architecture.md shows another list, where a room has more than 4,000 lines, and
+# where two headers define a type of the same name.
 include(${SOURCE}/cmake/rooms.cmake)
 
 # Each room comes after the rooms that it includes: so there is no circle.
@@ -55,6 +56,22 @@ foreach(source IN LISTS sources)
   if(NOT folder IN_LIST tanglebin_rooms)
     message(SEND_ERROR "tanglebin/${source}: ${folder} is not in cmake/rooms.cmake")
   endif()
+endforeach()
+
+# Two types of one name in the namespace would be one to the linker, which keeps the code of either for both.
+file(GLOB_RECURSE headers RELATIVE ${SOURCE} ${SOURCE}/tanglebin/*.hpp)
+set(types)
+foreach(header IN LISTS headers)
+  file(STRINGS ${SOURCE}/${header} definitions REGEX "^(struct|class|enum class) [A-Za-z]+[^;]*{|^using [A-Za-z]+ =")
+  foreach(definition IN LISTS definitions)
+    string(REGEX MATCH "^(struct|class|enum class|using) ([A-Za-z]+)" type "${definition}")
+    set(type ${CMAKE_MATCH_2})
+    if(type IN_LIST types)
+      message(SEND_ERROR "${header}: ${type} is defined in ${header_of_${type}} too: give one of them another name")
+    endif()
+    list(APPEND types ${type})
+    set(header_of_${type} ${header})
+  endforeach()
 endforeach()
 
 # The list in the documentation: "    room  <- room room …", one line each.

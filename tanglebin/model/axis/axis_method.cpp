@@ -115,13 +115,14 @@ struct Scan {
   const PointCloud& cloud;
   const Cropped& cropped;
   const KnownScene& known;
+  const OtherSurfaces& others;
 };
 
 // The tubes, with their fragments and the points of these.
-void add_tubes(Model& model, AxisSteps& steps, std::vector<Candidate> candidates,
+void add_tubes(Model& model, AxisSteps& steps, std::vector<TubeCandidate> candidates,
                std::vector<std::int32_t>& claimed) {
   steps.tubes.clear();
-  for (Candidate& candidate : candidates) {
+  for (TubeCandidate& candidate : candidates) {
     candidate.tube.id = static_cast<int>(model.tubes.size()) + 1;
     for (const std::size_t fragment : candidate.fragments) {
       for (const std::size_t point : steps.fragments[fragment].points)
@@ -162,7 +163,7 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   });
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");
 
-  std::vector<std::vector<Candidate>> candidates;
+  std::vector<std::vector<TubeCandidate>> candidates;
   for_each_kind([&](const AxisSteps& steps, const TubeKind& kind) {
     candidates.push_back(fit_candidates(steps, voting.points, kind, known.camera, settings));
   });
@@ -176,8 +177,7 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   }
   clock.end_step("fit", model.tubes.size(), "tubes");
 
-  model.labels = label_points(scan.cloud, scan.cropped, claimed, model.tubes, settings.label,
-                              other_surfaces(voting, known.support, scan.cloud.points.size()));
+  model.labels = label_points(scan.cloud, scan.cropped, claimed, model.tubes, settings.label, scan.others);
   clock.end_step("label",
                  static_cast<std::size_t>(std::ranges::count_if(
                      model.labels, [](std::int32_t label) { return label > bin_label; })),
@@ -236,8 +236,9 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
 
   const RangeImage seen(points_seen(cloud, cropped, voting.filtered, ratio, seed), known.camera,
                         solid_parts(known.support));
+  const OtherSurfaces others = other_surfaces(voting, known.support, cloud.points.size());
   const auto model_with = [&](double shift) {
-    return model_votes(voting, seen, {cloud, cropped, known}, settings, shift, at_step);
+    return model_votes(voting, seen, {cloud, cropped, known, others}, settings, shift, at_step);
   };
   AxisModel best = model_with(0);
   for (const double shift : other_shifts) {

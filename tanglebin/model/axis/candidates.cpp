@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tanglebin/base/median.hpp"
 #include "tanglebin/model/axis/fragments/fragments.hpp"
 #include "tanglebin/model/axis/links/beyond_ends.hpp"
 #include "tanglebin/model/axis/tube_fit.hpp"
@@ -10,19 +11,13 @@
 namespace tanglebin {
 namespace {
 
-std::size_t points_of(const AxisSteps& steps, const std::vector<std::size_t>& members) {
-  std::size_t points = 0;
-  for (const std::size_t member : members) points += steps.fragments[member].points.size();
-  return points;
-}
-
 bool is_false_speck(const AxisSteps& steps, const std::vector<std::size_t>& members, const TubeKind& kind,
                     const LinkSettings& settings) {
   // Points of a piece that is so long, in radii.
   constexpr double nothing = 0.5;
   constexpr double ball = 2;
-  const double seen =
-      static_cast<double>(points_of(steps, members)) / points_on_a_radius(steps.fragments, kind.radius);
+  const double seen = static_cast<double>(number_of_points(steps.fragments, members)) /
+                      points_on_a_radius(steps.fragments, kind.radius);
   if (seen < nothing) return true;
   if (seen > ball) return false;
   double length = 0;
@@ -50,59 +45,50 @@ bool looks_like_a_tube(const TubeSurface& surface, const Support& support) {
 }
 
 // m, of the tube that the point in the middle is on: by how much points scatter about a tube here.
-double usual_scatter(const std::vector<std::vector<Candidate>>& of_kinds) {
+double usual_scatter(const std::vector<std::vector<TubeCandidate>>& of_kinds) {
   std::vector<std::pair<double, std::size_t>> scatters;
-  std::size_t points = 0;
-  for (const std::vector<Candidate>& candidates : of_kinds) {
-    for (const Candidate& candidate : candidates) {
+  for (const std::vector<TubeCandidate>& candidates : of_kinds) {
+    for (const TubeCandidate& candidate : candidates)
       scatters.emplace_back(candidate.surface.scatter, candidate.points);
-      points += candidate.points;
-    }
   }
-  std::ranges::sort(scatters);
-  std::size_t sum = 0;
-  for (const auto& [scatter, count] : scatters) {
-    sum += count;
-    if (2 * sum >= points) return scatter;
-  }
-  return 0;
+  return weighted_median(std::move(scatters));
 }
 
-bool scatters_as_usual(const Candidate& candidate, double usual) {
+bool scatters_as_usual(const TubeCandidate& candidate, double usual) {
   constexpr double exact = 0.01;  // radii
   constexpr double factor_max = 2;
   return candidate.surface.scatter <= std::max(factor_max * usual, exact * candidate.tube.radius);
 }
 
-void drop_unless(std::vector<std::vector<Candidate>>& of_kinds, const auto& is_tube) {
-  for (std::vector<Candidate>& candidates : of_kinds)
-    std::erase_if(candidates, [&](const Candidate& candidate) { return !is_tube(candidate); });
+void drop_unless(std::vector<std::vector<TubeCandidate>>& of_kinds, const auto& is_tube) {
+  for (std::vector<TubeCandidate>& candidates : of_kinds)
+    std::erase_if(candidates, [&](const TubeCandidate& candidate) { return !is_tube(candidate); });
 }
 
 }  // namespace
 
-std::vector<Candidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
-                                      const TubeKind& kind, const Camera& camera,
-                                      const AxisSettings& settings) {
-  std::vector<Candidate> candidates;
+std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
+                                          const TubeKind& kind, const Camera& camera,
+                                          const AxisSettings& settings) {
+  std::vector<TubeCandidate> candidates;
   for (const std::vector<std::size_t>& members : steps.tubes) {
     if (is_false_speck(steps, members, kind, settings.link)) continue;
     Tube tube = fit_tube(steps.fragments, members, steps.links, steps.chosen, points, kind, settings.fit);
     const TubeSurface surface = surface_of(tube, steps.fragments, members, points, steps.votes, camera);
-    candidates.push_back({members, points_of(steps, members), std::move(tube), surface});
+    candidates.push_back({members, number_of_points(steps.fragments, members), std::move(tube), surface});
   }
   return candidates;
 }
 
-void drop_what_is_no_tube(std::vector<std::vector<Candidate>>& of_kinds, const Support& support) {
-  drop_unless(of_kinds, [](const Candidate& candidate) {
+void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, const Support& support) {
+  drop_unless(of_kinds, [](const TubeCandidate& candidate) {
     return !candidate.tube.flat_ends || total_length(candidate.tube) > candidate.tube.radius;
   });
   if (support.shape == Support::Shape::bin) return;
   drop_unless(of_kinds,
-              [&](const Candidate& candidate) { return looks_like_a_tube(candidate.surface, support); });
+              [&](const TubeCandidate& candidate) { return looks_like_a_tube(candidate.surface, support); });
   const double usual = usual_scatter(of_kinds);
-  drop_unless(of_kinds, [&](const Candidate& candidate) { return scatters_as_usual(candidate, usual); });
+  drop_unless(of_kinds, [&](const TubeCandidate& candidate) { return scatters_as_usual(candidate, usual); });
 }
 
 }  // namespace tanglebin

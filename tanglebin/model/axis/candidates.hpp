@@ -14,7 +14,7 @@
 namespace tanglebin {
 
 /// A tube that fits joined fragments, if there is one.
-struct Candidate {
+struct TubeCandidate {
   std::vector<std::size_t> fragments;  ///< indices into AxisSteps::fragments, ascending
   std::size_t points;                  ///< of the fragments
   Tube tube;
@@ -23,13 +23,13 @@ struct Candidate {
 
 /// Fits a tube to each set of fragments in `steps.tubes`, but for specks: of these next to nothing is seen;
 /// or no more than of a ball, and the rest should have been seen.
-std::vector<Candidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
-                                      const TubeKind& kind, const Camera& camera,
-                                      const AxisSettings& settings);
+std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
+                                          const TubeKind& kind, const Camera& camera,
+                                          const AxisSettings& settings);
 
 /// In a known bin there are tubes. Elsewhere there may also be the rim of a bin, a box, or a pipe of quite
 /// another radius; and without a support walls, so that what shows too little to tell is no tube there. A
 /// ball is none either: an upright tube shows one if its ends are round.
-void drop_what_is_no_tube(std::vector<std::vector<Candidate>>& of_kinds, const Support& support);
+void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, const Support& support);
 
 }  // namespace tanglebin

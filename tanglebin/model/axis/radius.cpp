@@ -201,8 +201,7 @@ std::vector<double> radii_of(const std::vector<Sighting>& sightings) {
 // The standard deviation of a normal distribution with the same median deviation.
 double scatter_about(double middle, std::vector<double> values) {
   for (double& value : values) value = std::abs(value - middle);
-  constexpr double sigmas = 1.4826;
-  return sigmas * median(std::move(values));
+  return deviation_of_median * median(std::move(values));
 }
 
 RadiusEstimate refined(const PixelGrid& grid, double radius, const RadiusRange& range,

@@ -176,8 +176,6 @@ std::vector<Observation> observe(const State& state, const std::vector<Vector3d>
   return observations;
 }
 
-constexpr double deviation_of_median = 1.4826;  // standard deviation over median distance, of normal errors
-
 using Spreads = std::array<double, kinds>;  // m, robust standard deviations, NaN for none
 
 std::array<std::vector<double>, kinds> distances_by_kind(const std::vector<Observation>& observations) {
@@ -302,12 +300,12 @@ void move(State& state, const Row& step) {
   state.gap += step[of_gap];
 }
 
-double pixel_at(const View& view, const State& state) {
+double pixel_at(const SensorView& view, const State& state) {
   return view.pixel_size(std::max((state.pose * Vector3d(0, 0, state.bin.height)).z(), 0.01));
 }
 
 // One step of Gauss and Newton; returns the information.
-Square improve(const View& view, const BinToFit& known, State& state,
+Square improve(const SensorView& view, const BinToFit& known, State& state,
                const std::vector<Observation>& observations) {
   Normal normal = normal_equations(observations);
   add_prior(normal, state, known, pixel_at(view, state));
@@ -316,7 +314,7 @@ Square improve(const View& view, const BinToFit& known, State& state,
   return normal.information;
 }
 
-std::vector<Vector3d> points_near(const View& view, const State& state, std::size_t count) {
+std::vector<Vector3d> points_near(const SensorView& view, const State& state, std::size_t count) {
   constexpr double around = 0.05;  // m
   const Vector3d half(state.bin.length / 2 + state.bin.wall, state.bin.width / 2 + state.bin.wall, 0);
   Eigen::AlignedBox3d box(-half, half + state.bin.height * Vector3d::UnitZ());
@@ -369,8 +367,8 @@ State start(const BinToFit& known, const Isometry3d& pose) {
 
 // Steps with gates that close. The sizes stay near the given ones: while gates are wide, they would follow
 // clutter.
-void approach(const View& view, const BinToFit& known, State& state, const std::vector<Vector3d>& points,
-              const std::vector<RimEdge>& edges) {
+void approach(const SensorView& view, const BinToFit& known, State& state,
+              const std::vector<Vector3d>& points, const std::vector<RimEdge>& edges) {
   constexpr double rough_error = 0.001;  // m, that points of a block share
   const BinToFit firm{.bin = known.bin, .margin = 0, .noise = known.noise};
   for (const double gate : {0.03, 0.03, 0.02, 0.02, 0.012, 0.012, 0.008, 0.008}) {
@@ -381,7 +379,7 @@ void approach(const View& view, const BinToFit& known, State& state, const std::
   }
 }
 
-std::vector<RimEdge> edges_near(const View& view, const BinToFit& known, const State& state) {
+std::vector<RimEdge> edges_near(const SensorView& view, const BinToFit& known, const State& state) {
   constexpr double reach = 0.03;
   return rim_edges(view, known.bin, state.pose, closeness_to_rim(known), reach);
 }
@@ -430,14 +428,14 @@ double closeness_of(const BinToFit& known) {
   return least + deviations * known.noise + known.margin;
 }
 
-Isometry3d moved_near(const View& view, const BinToFit& known, const Isometry3d& pose) {
+Isometry3d moved_near(const SensorView& view, const BinToFit& known, const Isometry3d& pose) {
   constexpr std::size_t points = 6000;
   State state = start(known, pose);
   approach(view, known, state, points_near(view, state, points), edges_near(view, known, state));
   return state.pose;
 }
 
-BinFit fit_bin(const View& view, const BinToFit& known, const Isometry3d& pose) {
+BinFit fit_bin(const SensorView& view, const BinToFit& known, const Isometry3d& pose) {
   constexpr std::size_t points_max = 60000;
   constexpr int rounds = 8;
   constexpr int rounds_with_same_edges = 4;

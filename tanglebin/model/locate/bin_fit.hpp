@@ -6,7 +6,7 @@
 
 #include "tanglebin/geometry/bin.hpp"
 #include "tanglebin/model/locate/bin_parts.hpp"
-#include "tanglebin/model/locate/view.hpp"
+#include "tanglebin/model/locate/sensor_view.hpp"
 
 // Internal to the room.
 namespace tanglebin {
@@ -39,10 +39,10 @@ struct BinFit {
 };
 
 /// Moves a bin by a few centimetres and degrees onto the surfaces seen. Rough.
-Eigen::Isometry3d moved_near(const View& view, const BinToFit& known, const Eigen::Isometry3d& pose);
+Eigen::Isometry3d moved_near(const SensorView& view, const BinToFit& known, const Eigen::Isometry3d& pose);
 
 /// Fits a bin that is near its place already: least squares over points on its surfaces and the edges of its
 /// rim, with the sizes free within millimetres, and without outliers such as tubes.
-BinFit fit_bin(const View& view, const BinToFit& known, const Eigen::Isometry3d& pose);
+BinFit fit_bin(const SensorView& view, const BinToFit& known, const Eigen::Isometry3d& pose);
 
 }  // namespace tanglebin

@@ -29,7 +29,7 @@ std::size_t part_at(const Bin& bin, std::size_t box, const Vector3d& point, cons
                    : part_of(PartKind::outer, wall_on(axis, normal[axis]));
 }
 
-Ray ray_of(const View& view, std::size_t pixel) {
+Ray ray_of(const SensorView& view, std::size_t pixel) {
   const auto width = static_cast<std::size_t>(view.camera.width);
   const std::size_t row = pixel / width;
   return ray_through(view.camera, static_cast<double>(pixel % width), static_cast<double>(row));
@@ -99,8 +99,8 @@ std::optional<PartHit> first_hit(const std::array<AlignedBox3d, 5>& boxes, const
                  .cosine = -nearest->normal.dot(ray.direction)};
 }
 
-std::vector<PixelVerdict> verdicts(const View& view, const std::vector<std::size_t>& pixels, const Bin& bin,
-                                   const Isometry3d& pose, double closeness) {
+std::vector<PixelVerdict> verdicts(const SensorView& view, const std::vector<std::size_t>& pixels,
+                                   const Bin& bin, const Isometry3d& pose, double closeness) {
   const Isometry3d from_camera = pose.inverse(Eigen::Isometry);
   const std::array<AlignedBox3d, 5> parts = boxes(bin);
   std::vector<PixelVerdict> verdicts;

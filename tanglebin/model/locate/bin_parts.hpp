@@ -9,7 +9,7 @@
 
 #include "tanglebin/geometry/bin.hpp"
 #include "tanglebin/geometry/ray.hpp"
-#include "tanglebin/model/locate/view.hpp"
+#include "tanglebin/model/locate/sensor_view.hpp"
 
 // Internal to the room. The surfaces of a bin, in its frame.
 namespace tanglebin {
@@ -64,8 +64,8 @@ struct PixelVerdict {
 };
 
 /// Of pixels: `pose` takes the bin's frame to the camera's. Closeness is across the surface, m.
-std::vector<PixelVerdict> verdicts(const View& view, const std::vector<std::size_t>& pixels, const Bin& bin,
-                                   const Eigen::Isometry3d& pose, double closeness);
+std::vector<PixelVerdict> verdicts(const SensorView& view, const std::vector<std::size_t>& pixels,
+                                   const Bin& bin, const Eigen::Isometry3d& pose, double closeness);
 
 /// How many pixels say what, by the part that each should show; `expected` are all of a part.
 struct Agreement {

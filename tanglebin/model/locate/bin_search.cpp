@@ -48,14 +48,15 @@ Isometry3d level_frame(const Vector3d& up, double height, const Vector3d& middle
   return frame;
 }
 
-Vector3d middle_of(const View& view, const std::vector<std::size_t>& pixels) {
+Vector3d middle_of(const SensorView& view, const std::vector<std::size_t>& pixels) {
   Vector3d sum = Vector3d::Zero();
   for (const std::size_t pixel : pixels) sum += view.points[pixel].cast<double>();
   return sum / static_cast<double>(pixels.size());
 }
 
-Plan plan_of(const View& view, const std::vector<std::size_t>& pixels, const std::vector<FlatPatch>& patches,
-             const Isometry3d& frame, const Bin& bin, double closeness) {
+Plan plan_of(const SensorView& view, const std::vector<std::size_t>& pixels,
+             const std::vector<FlatPatch>& patches, const Isometry3d& frame, const Bin& bin,
+             double closeness) {
   constexpr double steep = 0.4;  // largest cosine between a wall's normal and the vertical
   Plan plan{.frame = frame, .rim = {}, .floor = {}, .walls = {}};
   const Isometry3d from_camera = frame.inverse(Eigen::Isometry);
@@ -230,7 +231,7 @@ std::vector<Scored> apart(std::vector<Scored> all, std::size_t most) {
 
 }  // namespace
 
-std::vector<Isometry3d> possible_poses(const View& view, const std::vector<FlatPatch>& patches,
+std::vector<Isometry3d> possible_poses(const SensorView& view, const std::vector<FlatPatch>& patches,
                                        const std::vector<FlatPlane>& planes, const Bin& bin,
                                        double closeness) {
   constexpr std::size_t points_of_plan = 8000;

@@ -20,7 +20,7 @@
 #include "tanglebin/model/locate/bin_search.hpp"
 #include "tanglebin/model/locate/patches.hpp"
 #include "tanglebin/model/locate/plane_fit.hpp"
-#include "tanglebin/model/locate/view.hpp"
+#include "tanglebin/model/locate/sensor_view.hpp"
 
 namespace tanglebin {
 namespace {
@@ -37,12 +37,12 @@ constexpr std::size_t rays = 8000;  // for an agreement
 
 /// What all steps know.
 struct Task {
-  const View& view;
+  const SensorView& view;
   BinToFit known;
   std::vector<std::size_t> pixels;  // all over the image, with a point or without
 };
 
-std::vector<std::size_t> pixels_of_image(const View& view) {
+std::vector<std::size_t> pixels_of_image(const SensorView& view) {
   const std::size_t stride = (view.points.size() / (4 * rays)) | 1U;
   std::vector<std::size_t> pixels;
   for (std::size_t i = 0; i < view.points.size(); i += stride) pixels.push_back(i);
@@ -536,7 +536,7 @@ Located located_bin(const Support& support, const Camera& camera, const BinFit& 
 }
 
 // A unit or a scale of another power of ten.
-void expect_scale(const View& view, const Bin& bin) {
+void expect_scale(const SensorView& view, const Bin& bin) {
   constexpr double times = 30;
   std::vector<double> depths;
   for (const std::size_t pixel : view.sample(rays)) depths.push_back(view.points[pixel].z());
@@ -548,7 +548,7 @@ void expect_scale(const View& view, const Bin& bin) {
                   depth, bin.length));
 }
 
-Located locate_bin(const View& view, const Support& support, const Camera& camera) {
+Located locate_bin(const SensorView& view, const Support& support, const Camera& camera) {
   expect_scale(view, support.bin);
   const std::vector<FlatPatch> patches = patches_of(view);
   const std::vector<FlatPlane> planes = planes_of(patches);
@@ -620,7 +620,7 @@ Located located_plane(const Support& support, const Camera& camera, const PlaneF
   return located;
 }
 
-Located locate_plane(const View& view, const Support& support, const Camera& camera) {
+Located locate_plane(const SensorView& view, const Support& support, const Camera& camera) {
   const std::vector<FlatPlane> planes = planes_of(patches_of(view));
   const PlaneFit fit = fit_plane(view, lowest_plane(planes), support.margin);
   constexpr double explained_min = 0.02;
@@ -652,7 +652,7 @@ Located locate(const PointCloud& cloud, const Support& support, const Camera& ca
     throw InputError({.file = "", .line = 0, .field = "support.shape"}, excerpt(name_of(support.shape)),
                      "bin or plane, to be located");
   }
-  const View view = view_of(cloud, camera);
+  const SensorView view = view_of(cloud, camera);
   return support.shape == Support::Shape::bin ? locate_bin(view, support, camera)
                                               : locate_plane(view, support, camera);
 }

@@ -19,7 +19,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-int tile_size(const View& view) {
+int tile_size(const SensorView& view) {
   constexpr double smallest = 0.008;  // m
   constexpr int fewest_pixels = 10;
   std::vector<float> depths;
@@ -48,7 +48,7 @@ Vector3d towards_camera(const Vector3d& normal, const Vector3d& at) {
 }
 
 // The points of a tile, about one of them: differences of squares lose digits far from the origin.
-Moments moments_of_tile(const View& view, int left, int top, int size, const Vector3f& about) {
+Moments moments_of_tile(const SensorView& view, int left, int top, int size, const Vector3f& about) {
   Moments moments;
   for (int row = top; row < top + size; ++row) {
     for (int column = left; column < left + size; ++column) {
@@ -59,7 +59,7 @@ Moments moments_of_tile(const View& view, int left, int top, int size, const Vec
   return moments;
 }
 
-Vector3f first_point(const View& view, int left, int top, int size) {
+Vector3f first_point(const SensorView& view, int left, int top, int size) {
   for (int row = top; row < top + size; ++row) {
     for (int column = left; column < left + size; ++column) {
       if (view.at(column, row).allFinite()) return view.at(column, row);
@@ -68,7 +68,7 @@ Vector3f first_point(const View& view, int left, int top, int size) {
   return view.at(-1, -1);
 }
 
-void add_patch(const View& view, int left, int top, int size, std::vector<FlatPatch>& patches) {
+void add_patch(const SensorView& view, int left, int top, int size, std::vector<FlatPatch>& patches) {
   constexpr double points_min = 12;
   constexpr double flatness = 0.25;  // largest ratio of variances across and along the plane
   const Vector3f about = first_point(view, left, top, size);
@@ -164,7 +164,7 @@ FlatPlane refined(const std::vector<FlatPatch>& patches, FlatPlane plane, double
 
 }  // namespace
 
-std::vector<FlatPatch> patches_of(const View& view) {
+std::vector<FlatPatch> patches_of(const SensorView& view) {
   const int size = tile_size(view);
   std::vector<FlatPatch> patches;
   for (int top = 0; top < view.camera.height; top += size) {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "tanglebin/model/locate/view.hpp"
+#include "tanglebin/model/locate/sensor_view.hpp"
 
 // Internal to the room. Everything is in the camera's frame.
 namespace tanglebin {
@@ -17,7 +17,7 @@ struct FlatPatch {
 };
 
 /// A patch for each tile of at least 10 pixels and 8 mm that has enough points and is roughly flat.
-std::vector<FlatPatch> patches_of(const View& view);
+std::vector<FlatPatch> patches_of(const SensorView& view);
 
 /// A plane that many patches lie on.
 struct FlatPlane {

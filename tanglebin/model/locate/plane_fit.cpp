@@ -51,7 +51,6 @@ std::vector<Vector3d> within(const std::vector<Vector3d>& points, const Frame& f
 }
 
 double spread_of(const std::vector<Vector3d>& local) {
-  constexpr double deviation_of_median = 1.4826;
   constexpr double smallest = 0.0001;
   std::vector<double> distances;
   distances.reserve(local.size());
@@ -121,7 +120,7 @@ Vector3d middle_of(const std::vector<Vector3d>& local) {
   return sum / static_cast<double>(std::max<std::size_t>(local.size(), 1));
 }
 
-std::vector<Vector3d> points_of(const View& view) {
+std::vector<Vector3d> points_of(const SensorView& view) {
   constexpr std::size_t points_max = 60000;
   std::vector<Vector3d> points;
   for (const std::size_t pixel : view.sample(points_max))
@@ -136,7 +135,7 @@ double share_below(const std::vector<Vector3d>& points, const Frame& frame, doub
 }
 
 // What is seen near the plane, alone.
-View only_near(View view, const Frame& frame, double gate) {
+SensorView only_near(SensorView view, const Frame& frame, double gate) {
   std::erase_if(view.seen, [&](std::size_t pixel) {
     Eigen::Vector3f& point = view.points[pixel];
     const bool is_near = std::abs(frame.local(point.cast<double>()).z()) < gate;
@@ -156,7 +155,7 @@ bool is_parallel(const FlatPatch& patch, const Frame& frame) {
 }
 
 // Of a table, all. A plane through a heap of tubes meets them at all angles.
-double share_parallel(const View& view, const Frame& frame, double gate) {
+double share_parallel(const SensorView& view, const Frame& frame, double gate) {
   double parallel = 0;
   double all = 0;
   for (const FlatPatch& patch : patches_of(only_near(view, frame, gate))) {
@@ -168,7 +167,7 @@ double share_parallel(const View& view, const Frame& frame, double gate) {
 
 }  // namespace
 
-PlaneFit fit_plane(const View& view, const FlatPlane& plane, double margin) {
+PlaneFit fit_plane(const SensorView& view, const FlatPlane& plane, double margin) {
   constexpr int rounds = 8;
   constexpr double deviations = 4;
   constexpr double narrowest = 0.0015;

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "tanglebin/model/locate/patches.hpp"
-#include "tanglebin/model/locate/view.hpp"
+#include "tanglebin/model/locate/sensor_view.hpp"
 
 // Internal to the room.
 namespace tanglebin {
@@ -21,6 +21,6 @@ struct PlaneFit {
 };
 
 /// Fits a plane near `plane`. `margin` (m) is by how much the real one may deviate.
-PlaneFit fit_plane(const View& view, const FlatPlane& plane, double margin);
+PlaneFit fit_plane(const SensorView& view, const FlatPlane& plane, double margin);
 
 }  // namespace tanglebin

@@ -23,7 +23,8 @@ enum class Shown : std::uint8_t {
 /// Whether each pixel shows the rim.
 class RimMap {
 public:
-  RimMap(const View& view, const Bin& bin, const Isometry3d& from_camera, double closeness, double reach)
+  RimMap(const SensorView& view, const Bin& bin, const Isometry3d& from_camera, double closeness,
+         double reach)
       : bin_(bin),
         closeness_(closeness),
         reach_(reach),
@@ -74,8 +75,8 @@ private:
 
 }  // namespace
 
-std::vector<RimEdge> rim_edges(const View& view, const Bin& bin, const Isometry3d& pose, double closeness,
-                               double reach) {
+std::vector<RimEdge> rim_edges(const SensorView& view, const Bin& bin, const Isometry3d& pose,
+                               double closeness, double reach) {
   const RimMap map(view, bin, pose.inverse(Eigen::Isometry), closeness, reach);
   const Vector3d up = pose.linear().col(2);
   const double offset = up.dot(pose * Vector3d(0, 0, bin.height));

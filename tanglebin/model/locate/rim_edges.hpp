@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tanglebin/geometry/bin.hpp"
-#include "tanglebin/model/locate/view.hpp"
+#include "tanglebin/model/locate/sensor_view.hpp"
 
 // Internal to the room.
 namespace tanglebin {
@@ -18,7 +18,7 @@ struct RimEdge {
 
 /// The edges near the rim of a bin in this pose (bin frame → camera frame). Points within `closeness` (m) of
 /// the rim's plane are on it; the edges may be `reach` (m) away from where the bin has them.
-std::vector<RimEdge> rim_edges(const View& view, const Bin& bin, const Eigen::Isometry3d& pose,
+std::vector<RimEdge> rim_edges(const SensorView& view, const Bin& bin, const Eigen::Isometry3d& pose,
                                double closeness, double reach);
 
 }  // namespace tanglebin

@@ -158,7 +158,7 @@ private:
     std::vector<double> left;
     left.reserve(points_.size());
     for (const Point& point : points_) left.push_back(point.left(change));
-    constexpr double deviations = 3 * 1.4826;
+    constexpr double deviations = 3 * deviation_of_median;
     constexpr double least = 0.02;
     return std::max(deviations * median(std::move(left)), least * radius_);
   }

@@ -71,6 +71,23 @@ Camera paper_camera(double tilt_deg) {
   return camera;
 }
 
+bool is_sure(const TubeEvidence& tube) {
+  return tube.confidence > 0.9;
+}
+
+// Of the points on sure tubes: how many are of the bin.
+double false_share(const PointCloud& cloud, const Model& model) {
+  double on_tubes = 0;
+  double of_bin = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const std::int32_t label = model.labels[i];
+    if (label <= 0 || !is_sure(model.evidence[static_cast<std::size_t>(label) - 1])) continue;
+    ++on_tubes;
+    if (cloud.labels[i] == bin_label) ++of_bin;
+  }
+  return of_bin / on_tubes;
+}
+
 // Two tubes in a bin of which nothing is known, from aslant: two sides of each wall are seen, about as wide
 // as a tube, and all of the floor.
 TEST(ForeignParts, OfABinThatIsNotKnownAreNoTubes) {
@@ -81,8 +98,9 @@ TEST(ForeignParts, OfABinThatIsNotKnownAreNoTubes) {
         cloud_from_scan(scan(tubes, bin_preset("paper"), camera), CloudOf::tubes_and_bin, 2);
     const KnownScene known{.support = {.shape = Support::Shape::nothing}, .camera = camera};
     const Model model = model_tubes(cloud, known);
-    const auto is_sure = [](const TubeEvidence& tube) { return tube.confidence > 0.9; };
     EXPECT_EQ(std::ranges::count_if(model.evidence, is_sure), 2) << tilt << " degrees";
+    EXPECT_LE(model.tubes.size(), 3U) << tilt << " degrees";
+    EXPECT_LT(false_share(cloud, model), 0.01) << tilt << " degrees";
   }
 }
 

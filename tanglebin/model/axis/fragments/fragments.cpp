@@ -145,6 +145,13 @@ void drop_specks(std::vector<Fragment>& fragments, double radius, double share_m
 
 }  // namespace
 
+std::size_t number_of_points(const std::vector<Fragment>& fragments,
+                             const std::vector<std::size_t>& members) {
+  std::size_t points = 0;
+  for (const std::size_t member : members) points += fragments[member].points.size();
+  return points;
+}
+
 double points_on_a_radius(const std::vector<Fragment>& fragments, double radius) {
   constexpr double length_min = 2;  // radii
   std::vector<double> densities;

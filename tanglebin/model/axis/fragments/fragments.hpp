@@ -26,6 +26,9 @@ struct Fragment {
   double length;                       ///< m, of the centre line
 };
 
+/// How many points the fragments `members` have.
+std::size_t number_of_points(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members);
+
 /// The median number of points that a radius (m) of a fragment's length has; 0 if all fragments are short.
 double points_on_a_radius(const std::vector<Fragment>& fragments, double radius);
 

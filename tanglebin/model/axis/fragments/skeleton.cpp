@@ -417,19 +417,13 @@ private:
 
   // Of the votes, each with the number of votes in its voxel.
   double median_of_votes(const std::vector<std::size_t>& component) const {
-    std::vector<std::size_t> votes;
-    std::size_t sum = 0;
+    std::vector<std::pair<double, std::size_t>> votes;
+    votes.reserve(component.size());
     for (const std::size_t voxel : component) {
-      votes.push_back(grid_.voxels[voxel].points);
-      sum += votes.back();
+      const std::size_t count = grid_.voxels[voxel].points;
+      votes.emplace_back(static_cast<double>(count), count);
     }
-    std::ranges::sort(votes);
-    std::size_t below = 0;
-    for (const std::size_t count : votes) {
-      below += count;
-      if (2 * below >= sum) return static_cast<double>(count);
-    }
-    return 0;
+    return weighted_median(std::move(votes));
   }
 
   static constexpr std::array weak_shares = {0.125, 0.25, 0.5};  // of the median number of votes

@@ -97,48 +97,42 @@ double median_of(const std::vector<Place>& places, double Place::*value) {
   return median(std::move(values));
 }
 
-// The median difference from the median.
-double scatter_of(const std::vector<Place>& places) {
-  const double middle = median_of(places, &Place::distance);
+// The median difference from the middle.
+double scatter_about(double middle, const std::vector<Place>& places) {
   std::vector<double> differences;
   differences.reserve(places.size());
   for (const Place& place : places) differences.push_back(std::abs(place.distance - middle));
   return median(std::move(differences));
 }
 
-// Without those farther than three standard deviations from the median: of neighbours.
-std::vector<Place> without_outliers(const std::vector<Place>& places, double scatter) {
-  constexpr double deviations = 3 * 1.4826;
-  const double middle = median_of(places, &Place::distance);
-  std::vector<Place> rest;
-  for (const Place& place : places) {
-    if (std::abs(place.distance - middle) <= deviations * scatter) rest.push_back(place);
-  }
-  return rest;
+// Those farther than three standard deviations from the middle are of neighbours.
+std::vector<Place> without_outliers(std::vector<Place> places, double middle, double scatter) {
+  constexpr double deviations = 3;
+  std::erase_if(places, [&](const Place& place) {
+    return std::abs(place.distance - middle) > deviations * deviation_of_median * scatter;
+  });
+  return places;
 }
 
-// The sum of squares that is left of the distances after a least squares fit of so many terms of
-// a + b cos φ + c sin φ + d cos 2φ + e sin 2φ.
-double left_after(const std::vector<Place>& places, Eigen::Index terms) {
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(places.size()), 5);
-  Eigen::VectorXd distances(rows.rows());
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    const Place& place = places[static_cast<std::size_t>(i)];
-    const double angle = place.angle;
-    rows.row(i) << 1, std::cos(angle), std::sin(angle), std::cos(2 * angle), std::sin(2 * angle);
-    distances(i) = place.distance;
-  }
-  const Eigen::MatrixXd used = rows.leftCols(terms);
-  const Eigen::VectorXd fitted = used.householderQr().solve(distances);
-  return (distances - used * fitted).squaredNorm();
+// The sum of squares that is left of the values after a least squares fit of the columns.
+double left_after(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values) {
+  const Eigen::VectorXd fitted = columns.householderQr().solve(values);
+  return (values - columns * fitted).squaredNorm();
 }
 
-double ovality_of(const std::vector<Place>& places, double scatter, double radius) {
+// Of the fit of a + b cos φ + c sin φ + d cos 2φ + e sin 2φ, what the last two terms are for.
+double ovality_of(const std::vector<Place>& places, double radius) {
+  Eigen::MatrixXd terms(static_cast<Eigen::Index>(places.size()), 5);
+  Eigen::VectorXd distances(terms.rows());
+  for (Eigen::Index i = 0; i < terms.rows(); ++i) {
+    const auto& [angle, distance, facing] = places[static_cast<std::size_t>(i)];
+    terms.row(i) << 1, std::cos(angle), std::sin(angle), std::cos(2 * angle), std::sin(2 * angle);
+    distances(i) = distance;
+  }
   constexpr double exact = 0.01;  // radii
-  const std::vector<Place> inliers = without_outliers(places, scatter);
-  const double left = left_after(inliers, 3);
-  if (left < exact * exact * radius * radius * static_cast<double>(inliers.size())) return 0;
-  return 1 - left_after(inliers, 5) / left;
+  const double left = left_after(terms.leftCols(3), distances);
+  if (left < exact * exact * radius * radius * static_cast<double>(places.size())) return 0;
+  return 1 - left_after(terms, distances) / left;
 }
 
 // The slope of the second angle over the first, within the fragments: these may be on different surfaces.
@@ -162,10 +156,8 @@ std::optional<double> slope_of(const std::vector<Angles>& of_fragments) {
 TubeSurface surface_of(const Tube& tube, const std::vector<Fragment>& fragments,
                        const std::vector<std::size_t>& members, const std::vector<Eigen::Vector3f>& points,
                        const AxisVotes& votes, const Camera& camera) {
-  std::size_t all = 0;
-  for (const std::size_t member : members) all += fragments[member].points.size();
   constexpr std::size_t looked_at = 400;
-  const std::size_t stride = all / looked_at + 1;
+  const std::size_t stride = number_of_points(fragments, members) / looked_at + 1;
   const std::vector<Capsule> pieces = capsules(tube);
   if (pieces.empty()) return {};
   std::vector<Angles> angles;
@@ -177,9 +169,11 @@ TubeSurface surface_of(const Tube& tube, const std::vector<Fragment>& fragments,
     places.insert(places.end(), measured.places.begin(), measured.places.end());
   }
   if (places.size() < points_min) return {};
-  const double scatter = scatter_of(places);
-  return {slope_of(angles), scatter, ovality_of(places, scatter, tube.radius),
-          median_of(places, &Place::facing)};
+  const double middle = median_of(places, &Place::distance);
+  const double scatter = scatter_about(middle, places);
+  const double facing = median_of(places, &Place::facing);
+  return {slope_of(angles), scatter,
+          ovality_of(without_outliers(std::move(places), middle, scatter), tube.radius), facing};
 }
 
 }  // namespace tanglebin

@@ -1,4 +1,4 @@
-#include "tanglebin/model/locate/view.hpp"
+#include "tanglebin/model/locate/sensor_view.hpp"
 
 #include <fmt/format.h>
 
@@ -44,12 +44,12 @@ void expect_points(std::size_t finite, std::size_t in_image) {
 
 }  // namespace
 
-Vector3f View::at(int column, int row) const {
+Vector3f SensorView::at(int column, int row) const {
   if (column < 0 || column >= camera.width || row < 0 || row >= camera.height) return nothing();
   return points[index_of(camera, column, row)];
 }
 
-std::vector<std::size_t> View::sample(std::size_t count) const {
+std::vector<std::size_t> SensorView::sample(std::size_t count) const {
   // An odd stride does not fall into step with the image's rows.
   const std::size_t stride = (seen.size() / std::max<std::size_t>(count, 1)) | 1U;
   std::vector<std::size_t> chosen;
@@ -58,8 +58,8 @@ std::vector<std::size_t> View::sample(std::size_t count) const {
   return chosen;
 }
 
-View view_of(const PointCloud& cloud, const Camera& camera) {
-  View view{.camera = camera, .points = {}, .seen = {}};
+SensorView view_of(const PointCloud& cloud, const Camera& camera) {
+  SensorView view{.camera = camera, .points = {}, .seen = {}};
   view.camera.pose.setIdentity();
   view.points.assign(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
                      nothing());

@@ -11,7 +11,7 @@
 namespace tanglebin {
 
 /// What the camera saw in each pixel, in the camera's own frame.
-struct View {
+struct SensorView {
   Camera camera;                        ///< its pose is the identity
   std::vector<Eigen::Vector3f> points;  ///< m, camera frame, row by row; NaN where nothing was seen
   std::vector<std::size_t> seen;        ///< the pixels with a point, ascending
@@ -28,6 +28,6 @@ struct View {
 
 /// The view of a cloud (m, world frame). Of several points in one pixel, the nearest stays. Throws InputError
 /// if less than half of the points, or fewer than a thousand, are in the camera's image.
-View view_of(const PointCloud& cloud, const Camera& camera);
+SensorView view_of(const PointCloud& cloud, const Camera& camera);
 
 }  // namespace tanglebin
