@@ -265,7 +265,7 @@ private:
       warn("length", fmt::format("{} of {} tubes are longer than known, the longest {}: is the length right?",
                                  too_long, model_.tubes.size(), metres(longest)));
     constexpr std::size_t tubes_min = 3;
-    if (too_short >= tubes_min && too_short > 2 * complete)
+    if (too_short >= tubes_min && too_short > share * complete)
       warn("length",
            fmt::format("{} of {} tubes are shorter than known, the longest {}: is the length right?",
                        too_short, model_.tubes.size(), metres(longest)));
@@ -292,8 +292,10 @@ private:
                                 rounded_up(100 * *noise), 100 * noise_max));
   }
 
+  // Where no support is known, floor and walls are on no tube either.
   void doubt_unexplained() {
     constexpr std::size_t share = 5;
+    if (known_.support.shape == Support::Shape::nothing) return;
     if (model_.tubes.empty() || share * counts_.unexplained <= kept()) return;
     warn("unexplained",
          fmt::format("{} of the points looked at are on no tube", percent(counts_.unexplained, kept())));

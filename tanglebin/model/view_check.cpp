@@ -157,14 +157,16 @@ std::optional<Finding> doubt_of_resolution(const PointCloud& cloud, const std::v
                                            const KnownScene& known) {
   if (kept.empty()) return std::nullopt;
   const PixelUse use = pixel_use(cloud, cloud.points[kept[kept.size() / 2]], known);
-  constexpr std::size_t pixels_min = 100;
-  if (use.pixels < pixels_min) return std::nullopt;
+  constexpr std::size_t points_min = 100;
+  if (use.points < points_min) return std::nullopt;
   constexpr double points_max = 1.5;
   if (use.share(use.points) > points_max) {
     return warning(
         "camera",
         fmt::format("{:.1f} points lie in each pixel of the camera's image, where one camera sees one: "
-                    "the image may be of a higher resolution, or several clouds are in one",
+                    "the image may be of a higher resolution, the camera's pose in another unit, or several "
+                    "clouds in "
+                    "one",
                     use.share(use.points)));
   }
   constexpr double deep_max = 0.02;

@@ -205,6 +205,25 @@ TEST(Diagnose, SuggestsTheRadiusWhenNoTubeOfTheKnownOneIsThere) {
   EXPECT_THAT(text_of(model.findings), HasSubstr("they look like tubes of radius 12."));
 }
 
+// Where tubes hide each other, most are seen in part.
+TEST(Diagnose, DoubtsALengthOnlyIfHardlyATubeHasIt) {
+  const View view = right_view();
+  Model model = model_of(view);
+  ASSERT_EQ(model.evidence.size(), 4U);
+  for (TubeEvidence& tube : model.evidence) tube.length_fit = LengthFit::too_short;
+  EXPECT_THAT(text_of(diagnose(view.cloud, view.scene, model, 1)), HasSubstr("4 of 4 tubes are shorter"));
+  model.evidence[0].length_fit = LengthFit::complete;
+  EXPECT_EQ(text_of(diagnose(view.cloud, view.scene, model, 1)), "");
+}
+
+TEST(Diagnose, DoesNotAskForTheFloorToBeOfTubesWhereNoneIsKnown) {
+  View view = right_view();
+  view.scene.support = {.shape = Support::Shape::nothing};
+  const Model model = model_of(view);
+  EXPECT_GT(model.counts.unexplained, model.counts.on_tubes);
+  EXPECT_EQ(text_of(model.findings), "");
+}
+
 TEST(Diagnose, WarnsOfTooFewPointsAcrossATube) {
   const View view = right_view();
   const Model model = model_tubes(view.cloud, view.scene, {.ratio = 0.02});

@@ -102,6 +102,9 @@ inline std::vector<Mistake> mistakes() {
        "frame", error, "(x, −y, −z)"},
       {"pose inverted", [](View& view) { view.scene.camera.pose = view.scene.camera.pose.inverse(); },
        "camera", warning, "is its pose right?"},
+      {"the camera's position in millimetres",
+       [](View& view) { view.scene.camera.pose.translation() *= 1000; }, "camera", warning,
+       "the camera's pose in another unit"},
       {"support upside down",
        [](View& view) {
          view.scene.support.pose = Eigen::Isometry3d(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitX()));

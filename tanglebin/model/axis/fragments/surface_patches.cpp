@@ -73,9 +73,13 @@ Neighbourhood neighbourhood(const PixelGrid& grid, std::size_t item, float reach
   const auto [column, row] = grid.pixels()[item];
   // Rounded up from half a pixel, because points need not lie at the centres of their pixels.
   const auto window = static_cast<int>(std::lround(grid.pixels_across(reach, point)));
+  constexpr int points_of_a_row =
+      1000;  // there are more only where a camera that is none has many in a pixel
   Sums sums;
   for (int v = row - window; v <= row + window; ++v) {
-    sums.add(grid.run(v, column - window, column + window), point, reach * reach);
+    PixelGrid::Run run = grid.run(v, column - window, column + window);
+    run.size = std::min(run.size, points_of_a_row);
+    sums.add(run, point, reach * reach);
   }
   const int count = sum(sums.count);
   const auto n = static_cast<float>(count);

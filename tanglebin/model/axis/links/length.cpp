@@ -60,6 +60,16 @@ std::vector<Chain> as_long_as(const TubeKind& kind, std::vector<Chain> chains) {
   return chains;
 }
 
+// The heaviest links between fragments that chains of the kind can have. Where there are thousands, nearly
+// all are between pieces of noise: the length is looked for with the first of them, in bounded time.
+std::vector<Link> links_to_try(const std::vector<Fragment>& fragments, const RangeImage& seen,
+                               const TubeKind& kind, const LinkSettings& settings) {
+  constexpr std::size_t most = 1000;
+  std::vector<Link> links = find_links(fragments, seen, kind, settings);
+  links.erase(links.begin() + static_cast<std::ptrdiff_t>(std::min(links.size(), most)), links.end());
+  return links;
+}
+
 // Those that chains of this length, m, can have.
 std::vector<Link> possible_links(double length, const std::vector<Fragment>& fragments,
                                  std::vector<Link> links, const LinkSettings& settings) {
@@ -127,7 +137,7 @@ TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, cons
   const bool is_known = kind.length_is_known();
   if (is_known && longest <= length_max(kind.length(), settings)) return kind;
   const double most = 2.6 * longest;
-  const std::vector<Link> links = find_links(fragments, seen, of_length(kind, most), settings);
+  const std::vector<Link> links = links_to_try(fragments, seen, of_length(kind, most), settings);
   const Trial likeliest = likeliest_length(longest, most, kind, fragments, links, seen, settings);
   const bool is_sure = likeliest.chains >= enough;
   if (is_known && !is_sure) return kind;
