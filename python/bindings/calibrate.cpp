@@ -14,6 +14,7 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/profile/profile.hpp"
+#include "tanglebin/runs/workers.hpp"
 
 namespace tanglebin::python {
 namespace {
@@ -92,7 +93,7 @@ CalibrationSettings calibration_settings(const std::string& method, const std::s
   expect_within("scenes", scenes, 2, 100000);
   expect_within("time_limit", time_limit, 1e-3, longest);
   expect_within("seconds", seconds.value_or(1), 0, longest);
-  expect_within("jobs", jobs, 1, 1024);
+  validate_jobs(jobs);
   CalibrationSettings settings;
   settings.scoring = {.method = method_named(method),
                       .objective = objective_named(objective),

@@ -118,6 +118,23 @@ def test_a_run_forks_while_other_threads_run(recipe, dataset_directory, tmp_path
     assert summary.dataset.digest == tanglebin.verify_dataset(dataset_directory).digest
 
 
+@pytest.mark.parametrize("jobs", [0, -1, 1025])
+def test_no_or_too_many_workers_are_refused_before_anything_is_done(dataset_directory, recipe, tmp_path, jobs):
+    copy = shutil.copytree(dataset_directory, tmp_path / "copy")
+    (copy / "A1" / "plys" / "2.ply").unlink()
+    found = tanglebin.verify_dataset(copy)
+    before = (copy / "manifest.jsonl").read_bytes()
+    for run in [
+        lambda: tanglebin.verify_dataset(copy, jobs=jobs),
+        lambda: tanglebin.repair_dataset(copy, found, jobs=jobs),
+        lambda: tanglebin.generate_dataset(recipe, tmp_path / "new", jobs=jobs),
+        lambda: tanglebin.merge_datasets([copy], tmp_path / "new", jobs=jobs),
+    ]:
+        with pytest.raises(tanglebin.InputError, match="jobs: found .*, expected 1 to 1024"):
+            run()
+    assert (copy / "manifest.jsonl").read_bytes() == before and not (tmp_path / "new").exists()
+
+
 def test_faults_are_found_and_repaired(dataset_directory, tmp_path):
     copy = shutil.copytree(dataset_directory, tmp_path / "copy")
     assert tanglebin.verify_dataset(copy, jobs=2, rest=True).faults == []

@@ -94,6 +94,8 @@ def test_settings_that_cannot_be_are_refused(dataset_directory, results, tmp_pat
 
 
 def test_methods_are_compared_scene_by_scene(results, recipe):
+    with pytest.raises(tanglebin.InputError, match="results: found none"):
+        tanglebin.pairs_to_compare([])
     ((baseline, other),) = tanglebin.pairs_to_compare([results], baseline="axis")
     assert isinstance(other, tanglebin.Contestant) and (baseline.method, other.method) == ("axis", "one")
     comparison = tanglebin.compare(baseline, other)

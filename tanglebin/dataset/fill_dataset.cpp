@@ -286,6 +286,7 @@ FileRecord CaseWriter::write(const std::string& path, std::string_view bytes) co
 }
 
 FillSummary fill_dataset(const FillRequest& request, const MakeCase& make, const RunObserver& observer) {
+  validate_jobs(request.jobs);
   expect_free(request.directory, request.recipe);
   make_directories(request.directory);
   return Filling(request, make, observer).run();

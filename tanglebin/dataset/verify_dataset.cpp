@@ -325,6 +325,7 @@ private:
 
 VerifySummary verify_dataset(const fs::path& directory, const VerifySettings& settings,
                              const RunObserver& observer) {
+  validate_jobs(settings.jobs);
   return Verification(directory, recipe_in(directory), settings, observer).run();
 }
 

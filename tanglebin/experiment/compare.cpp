@@ -191,6 +191,7 @@ Pairs pairs_between(const fs::path& results, const fs::path& other,
 
 std::vector<std::pair<Contestant, Contestant>> pairs_to_compare(const std::vector<fs::path>& results,
                                                                 const std::optional<std::string>& baseline) {
+  if (results.empty()) throw InputError({"", 0, "results"}, "none", "the directory of one or more results");
   Pairs pairs;
   if (results.size() == 1) pairs = pairs_within(results.front(), baseline);
   for (std::size_t i = 1; i < results.size(); ++i) {

@@ -137,6 +137,15 @@ FoundLabels find_labels(const LabelsDirectory& directory, const RunId& run, cons
   return found;
 }
 
+void expect_there(const LabelsDirectory& directory, const std::vector<double>& ratios) {
+  for (const double ratio : ratios) {
+    const fs::path path = with_ratio(directory, ratio);
+    if (!fs::is_directory(path))
+      throw InputError({path.string(), 0, ""}, fs::exists(path) ? "a file" : "nothing",
+                       "a directory of labels");
+  }
+}
+
 std::string labels_sha256(const LabelsDirectory& directory, const RunId& run) {
   const fs::path folder = with_ratio(directory, run.ratio);
   return sha256_of(labels_file(folder, run), tubes_file(folder, run));

@@ -35,6 +35,9 @@ struct FoundLabels {
 /// InputError if there are neither, and for what cannot be read.
 FoundLabels find_labels(const LabelsDirectory& directory, const RunId& run, const PointCloud& cloud);
 
+/// Throws InputError unless there is the directory for each of the ratios.
+void expect_there(const LabelsDirectory& directory, const std::vector<double>& ratios);
+
 /// The checksum of the files that find_labels() would read; empty if there are none.
 std::string labels_sha256(const LabelsDirectory& directory, const RunId& run);
 

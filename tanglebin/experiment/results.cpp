@@ -376,10 +376,12 @@ bool FinishedRuns::has_other_labels(const Case& finished, const ExperimentSettin
   for (std::size_t i = 0; i < finished.runs.size(); ++i) {
     const auto* directory =
         std::get_if<LabelsDirectory>(&settings.methods[i / grid_.runs_of_a_method()].what);
-    if (directory == nullptr || finished.runs[i].state != State::scored) continue;
+    const State state = finished.runs[i].state;
+    if (directory == nullptr || (state != State::scored && state != State::failed)) continue;
     const LinePlace& place = finished.runs[i].result;
     const RunResult result = run_result({reader.line(place), files_[place.file].string(), place.line});
-    if (result.labels_sha256 != labels_sha256(*directory, result.run)) return true;
+    if (result.failure && result.failure->of == FailureOf::scene) continue;
+    if (result.labels_sha256.value_or("") != labels_sha256(*directory, result.run)) return true;
   }
   return false;
 }

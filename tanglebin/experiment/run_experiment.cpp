@@ -47,6 +47,12 @@ struct Place {
   int jobs;
 };
 
+// The checksum of labels that exist, before they are read: if they change meanwhile, they are scored again.
+std::optional<std::string> labels_of(const Entry& entry, const RunId& run) {
+  const auto* directory = std::get_if<LabelsDirectory>(&entry.what);
+  return directory ? std::optional(labels_sha256(*directory, run)) : std::nullopt;
+}
+
 Lines run_cloud(const Dataset& dataset, const ExperimentSettings& settings, const SeenCase& seen,
                 const Place& place) {
   const CaseData data = read_seen_case(dataset, seen);
@@ -55,6 +61,7 @@ Lines run_cloud(const Dataset& dataset, const ExperimentSettings& settings, cons
     return failed_runs(record, settings, seen, {FailureOf::scene, "no point of the cloud is on a tube"});
   const Recipe recipe = recipe_seen(dataset, seen);
   return lines_of_runs(settings, seen, [&](const Entry& entry, const RunId& run) -> Lines {
+    const std::optional<std::string> labels = labels_of(entry, run);
     try {
       const KnownScene known = told_scene(recipe, data, seen.scene, settings.scene);
       const Modelled modelled = model_by(entry, known, data, run, settings, place.scratch);
@@ -63,7 +70,7 @@ Lines run_cloud(const Dataset& dataset, const ExperimentSettings& settings, cons
       if (modelled.seconds) lines.push_back(times_json(run, modelled, circumstances(place.jobs)));
       return lines;
     } catch (const InputError& error) {
-      return {failure_json(run, record, {FailureOf::method, complaint_of(error)})};
+      return {failure_json(run, record, {FailureOf::method, complaint_of(error), labels})};
     }
   });
 }
@@ -99,10 +106,13 @@ FinishedRuns finished_runs(const fs::path& directory, const RunGrid& grid) {
 ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSettings& settings,
                                  const std::vector<CaseId>& wanted, const std::filesystem::path& directory,
                                  int jobs, const RunObserver& observer) {
+  validate_jobs(jobs);
   expect_names(settings.methods);
   for (const Entry& entry : settings.methods) {
     if (const auto* method = std::get_if<Method>(&entry.what)) expect_available(*method);
     if (const auto* own = std::get_if<BuiltIn>(&entry.what)) expect_available(own->method);
+    if (const auto* labels = std::get_if<LabelsDirectory>(&entry.what))
+      expect_there(*labels, settings.ratios);
   }
   expect_free(directory, dataset, settings);
   expect_clouds(dataset);

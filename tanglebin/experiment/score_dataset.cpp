@@ -10,6 +10,7 @@
 namespace tanglebin {
 
 SceneScore score_scene(const Dataset& dataset, const SeenCase& seen, const LabelsDirectory& labels) {
+  expect_there(labels, {1});
   const CaseData data = read_seen_case(dataset, seen);
   SceneScore scene{.seen = seen};
   if (std::ranges::none_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; })) {

@@ -260,6 +260,7 @@ ExportFormat export_format_named(const std::string& name) {
 
 ExportSummary export_dataset(const Dataset& dataset, const ExportRequest& request,
                              const RunObserver& observer) {
+  validate_jobs(request.jobs);
   return Exporting(dataset, request, observer).run();
 }
 

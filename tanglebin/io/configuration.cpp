@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/expect.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/cloud_input.hpp"
@@ -254,6 +255,14 @@ void write_tube(fmt::memory_buffer& text, const Tube& tube) {
   }
 }
 
+void expect_distinct_ids(const std::vector<Tube>& tubes) {
+  std::set<int> ids;
+  for (const Tube& tube : tubes) {
+    expect(tube.id >= 1, "id", fmt::format("{}", tube.id), "1 or more");
+    expect(ids.insert(tube.id).second, "id", fmt::format("{} twice", tube.id), "distinct ids");
+  }
+}
+
 }  // namespace
 
 std::vector<Tube> read_configuration(std::istream& in, const std::string& name) {
@@ -275,6 +284,7 @@ std::vector<Tube> read_configuration(const std::filesystem::path& file) {
 
 void write_configuration(std::ostream& out, const std::vector<Tube>& tubes) {
   validate(tubes);
+  expect_distinct_ids(tubes);
   fmt::memory_buffer text;
   fmt::format_to(std::back_inserter(text), "{}\n", tubes.size());
   for (const Tube& tube : tubes) write_tube(text, tube);

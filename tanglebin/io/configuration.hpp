@@ -18,7 +18,8 @@ std::vector<Tube> read_configuration(std::istream& in, const std::string& name);
 std::vector<Tube> read_configuration(const std::filesystem::path& file);
 
 /// Writes that format, with "flat" behind the counts of a tube with flat ends, and each number with the
-/// fewest digits that read back as the same double. Throws InputError as validate(Tube) does.
+/// fewest digits that read back as the same double. Throws InputError as validate(Tube) does, and unless the
+/// tubes have distinct ids of at least 1.
 void write_configuration(std::ostream& out, const std::vector<Tube>& tubes);
 
 }  // namespace tanglebin

@@ -3,8 +3,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 
+#include "tanglebin/base/text.hpp"
 #include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/report/html.hpp"
 #include "tanglebin/report/published_figures.hpp"
@@ -137,28 +139,66 @@ std::string headline(const Results& results) {
   return fmt::format("{} ± is half the 95 % confidence interval of the mean.", fmt::join(sentences, " "));
 }
 
-/// How runs without a score count, and why the first of them failed.
+/// Runs of a method that failed for the same reason.
+struct Failures {
+  std::string method;
+  std::string reason;
+  SeenCase first;
+  std::size_t runs = 0;
+};
+
+// The most frequent first.
+std::vector<Failures> failures_of(const std::vector<RunScore>& failed) {
+  std::vector<Failures> all;
+  for (const RunScore& score : failed) {
+    auto known = std::ranges::find_if(all, [&](const Failures& its) {
+      return its.method == score.run.method && its.reason == score.failure;
+    });
+    if (known == all.end())
+      known = all.insert(all.end(), {score.run.method, score.failure, {score.run.id, score.run.scanner}});
+    ++known->runs;
+  }
+  std::ranges::stable_sort(all, std::greater<>(), &Failures::runs);
+  return all;
+}
+
+std::string on_one_line(const std::string& text) {
+  constexpr std::size_t longest = 300;
+  return printable(text.size() > longest ? text.substr(0, longest) + " …" : text);
+}
+
+HtmlTable table_of_failures(const std::vector<RunScore>& failed) {
+  constexpr std::size_t most = 20;
+  const std::vector<Failures> all = failures_of(failed);
+  HtmlTable table{.caption_html = "Why runs failed. <code>results.jsonl</code> has each of them.",
+                  .columns = {{"Method", ""}, {"runs", ""}, {"the first", ""}, {"reason", ""}},
+                  .rows = {}};
+  for (const Failures& its : all) {
+    if (table.rows.size() == most) break;
+    table.rows.push_back({its.method, std::to_string(its.runs), name_of(its.first), on_one_line(its.reason)});
+  }
+  if (all.size() > most)
+    table.caption_html += fmt::format(" {} more are not shown.", counted(all.size() - most, "reason"));
+  return table;
+}
+
+/// How runs without a score count, and why they failed.
 std::string note_on_failures(const Results& results) {
-  std::string html;
+  std::string html_text;
   const auto failed = chosen(results.scores, [](const RunScore& score) { return !score.failure.empty(); });
   if (!failed.empty()) {
-    const RunKey& first = failed.front().run;
-    html += paragraph(
-        "warning",
-        fmt::format(
-            "{} failed; a failed run counts as one that found nothing. The first, method {} at ratio {} "
-            "on {}: {}. <code>results.jsonl</code> has them all.",
-            counted(failed.size(), "run"), escaped(first.method), ratio_text(first.ratio),
-            escaped(name_of(SeenCase{first.id, first.scanner})), escaped(failed.front().failure)));
+    html_text += paragraph("warning", fmt::format("{} failed; a failed run counts as one that found nothing.",
+                                                  counted(failed.size(), "run")));
+    html_text += html(table_of_failures(failed));
   }
   const auto unscored = distinct(results.unscored, [](const RunKey& run) {
     return SeenCase{run.id, run.scanner};
   });
   if (!unscored.empty()) {
-    html += paragraph("warning", fmt::format("{} without a visible tube, which no mean counts.",
-                                             counted(unscored.size(), "case")));
+    html_text += paragraph("warning", fmt::format("{} without a visible tube, which no mean counts.",
+                                                  counted(unscored.size(), "case")));
   }
-  return html;
+  return html_text;
 }
 
 }  // namespace

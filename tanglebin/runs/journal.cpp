@@ -107,6 +107,7 @@ std::vector<fs::path> journals_in(const fs::path& directory) {
 
 // The journals are listed after all else: one that comes in between is in neither list, or in both.
 std::set<fs::path> besides_journals(const fs::path& directory) {
+  if (!fs::is_directory(directory)) return {};
   std::set<fs::path> others;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
     const bool is_hidden = entry.path().filename().string().starts_with('.');

@@ -360,6 +360,12 @@ void stop_if_asked() {
   if (line_of_worker != nullptr && line_of_worker->has_ended()) throw TaskStopped();
 }
 
+void validate_jobs(int jobs) {
+  constexpr int most = 1024;
+  if (jobs < 1 || jobs > most)
+    throw InputError({"", 0, "jobs"}, fmt::format("{}", jobs), fmt::format("1 to {}", most));
+}
+
 bool run_in_workers(int jobs, std::size_t count, const Task& task, const WorkersObserver& observer,
                     TimeLimit limit) {
   const InterruptGuard guard;

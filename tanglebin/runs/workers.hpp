@@ -55,6 +55,9 @@ struct WorkersObserver {
 using TimeLimit = std::chrono::steady_clock::duration;
 inline constexpr TimeLimit no_limit = TimeLimit::max();
 
+/// Throws InputError unless there may be so many worker processes, 1 to 1024.
+void validate_jobs(int jobs);
+
 /// Runs tasks 0 … count − 1 in `jobs` forked processes. A worker gets its next task as soon as it has done
 /// the last, so a slow task delays no other. A task that throws TaskImpossible is given up. One whose worker
 /// dies, or that throws anything but an InputError or a SystemError, is tried once more and then given up.

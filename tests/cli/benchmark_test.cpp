@@ -240,8 +240,30 @@ TEST_F(Benchmark, ADirectoryOfLabelsIsScoredAsEachOfItsFiles) {
   EXPECT_EQ(some.status, 3);
   EXPECT_THAT(some.out, testing::ContainsRegex("A1/2 +found no labels"));
   EXPECT_THAT(some.out, testing::ContainsRegex("\nA +1 +3 +1 +0.6"));
+  EXPECT_EQ(run_program("score " + path("dataset") + " " + path("absent")).status, 2);
   EXPECT_EQ(run_program("score " + path("dataset")).status, 64);
   EXPECT_EQ(run_program("score").status, 64);
+}
+
+// A job that makes labels while they are scored: some are not there yet, one is cut off.
+TEST_F(Benchmark, LabelsThatWereMissingOrBrokenAreScoredOnceTheyAreThere) {
+  ASSERT_EQ(experiment("ours", "--method axis --keep").status, 0);
+  const fs::path made = path("ours/models/axis/1/A3/plys");
+  const fs::path labels = path("labels/A3/plys");
+  fs::create_directories(labels);
+  fs::copy(made / "1.ply", labels / "1.ply");
+  write_bytes((labels / "2.ply").string(), "ply\n");
+  const std::string options = "--labels mine=" + path("labels") + " --tubes 3";
+  EXPECT_EQ(experiment("scores", options).status, 3);
+  EXPECT_THAT(experiment("scores", options).out, HasSubstr("3 already there"));
+
+  fs::copy(made / "2.ply", labels / "2.ply", fs::copy_options::overwrite_existing);
+  fs::copy(made / "3.ply", labels / "3.ply");
+  const ProgramResult later = experiment("scores", options);
+  EXPECT_EQ(later.status, 0) << later.err;
+  EXPECT_THAT(later.out, AllOf(HasSubstr("2 cases modelled"), HasSubstr("1 already there")));
+  fs::remove(labels / "3.ply");
+  EXPECT_EQ(experiment("scores", options).status, 3);
 }
 
 TEST_F(Benchmark, TheReferenceEntriesOfThePointCloudLibraryRun) {
@@ -296,6 +318,7 @@ TEST_F(Benchmark, BadInputIsExitStatusTwoAndNothingIsBegun) {
   expect_error("--method mine=axis:absent.toml", "absent.toml: cannot be opened");
   expect_error("--method axis=axis:absent.toml", "absent.toml: cannot be opened");
   expect_error("--labels labels", "--labels: found 'labels', expected NAME=");
+  expect_error("--labels mine=absent", "absent: found nothing, expected a directory of labels");
   expect_error("--shard 3/2", "--shard");
 }
 
@@ -311,7 +334,8 @@ TEST_F(Benchmark, AChangedScriptIsAnotherExperiment) {
 }
 
 TEST_F(Benchmark, PartsOfOtherExperimentsAreNotMerged) {
-  const std::string options = " --cases 1 --tubes 1 --labels none=" + path("nowhere");
+  fs::create_directories(path("nothing"));
+  const std::string options = " --cases 1 --tubes 1 --labels none=" + path("nothing");
   experiment("one", "--method axis" + options);
   experiment("two", "--method axis --seed 7" + options);
   const ProgramResult merged =

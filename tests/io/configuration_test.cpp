@@ -122,6 +122,15 @@ TEST(Configuration, WritesWhatItRead) {
   EXPECT_EQ(write(read(two_tubes)), two_tubes);
 }
 
+// A list of tubes that were made without ids.
+TEST(Configuration, WritesNoTubesThatItCouldNotRead) {
+  std::vector<Tube> tubes = read(two_tubes);
+  tubes[1].id = tubes[0].id;
+  EXPECT_EQ(test::complaint([&] { write(tubes); }), "id: found 1 twice, expected distinct ids");
+  tubes[1].id = 0;
+  EXPECT_EQ(test::complaint([&] { write(tubes); }), "id: found 0, expected 1 or more");
+}
+
 TEST(Configuration, TakesOtherLineEndsAndBlanks) {
   const std::string no_last_newline = two_tubes.substr(0, two_tubes.size() - 1);
   EXPECT_EQ(write(read(no_last_newline)), two_tubes);

@@ -224,6 +224,18 @@ TEST(Diagnose, DoesNotAskForTheFloorToBeOfTubesWhereNoneIsKnown) {
   EXPECT_EQ(text_of(model.findings), "");
 }
 
+// Of tubes of half the radius, the surface is too curved everywhere, though most points are near it.
+TEST(Diagnose, NamesTheRadiusOfTubesThatLookTooThin) {
+  const View view = right_view();
+  KnownScene scene = view.scene;
+  scene.kinds[0].radius *= 2;
+  Model model = model_of(view);
+  for (TubeEvidence& tube : model.evidence) tube.radius_error = -0.1 * scene.kinds[0].radius;
+  for (Tube& tube : model.tubes) tube.radius = scene.kinds[0].radius;
+  EXPECT_THAT(text_of(diagnose(view.cloud, scene, model, 1)),
+              HasSubstr("the points fit no tube of radius 25 mm; they look like tubes of radius 12.5 mm"));
+}
+
 TEST(Diagnose, WarnsOfTooFewPointsAcrossATube) {
   const View view = right_view();
   const Model model = model_tubes(view.cloud, view.scene, {.ratio = 0.02});
