@@ -221,9 +221,11 @@ std::string result_json(const RunId& run, const CaseRecord& scene, const Modelle
   return json.dump();
 }
 
-std::string failure_json(const RunId& run, const CaseRecord& scene, const RunFailure& failure) {
+std::string failure_json(const RunId& run, const CaseRecord& scene, const RunFailure& failure,
+                         const std::optional<std::string>& labels_sha256) {
   Json json = result_head(run, scene);
   add_failure(json, failure);
+  if (labels_sha256) json["labels_sha256"] = *labels_sha256;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

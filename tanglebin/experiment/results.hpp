@@ -36,7 +36,8 @@ Circumstances circumstances(int jobs);
 /// The lines for a run (docs/formats.md), without a line end.
 std::string result_json(const RunId& run, const CaseRecord& scene, const Modelled& modelled,
                         const ModelScore& score);
-std::string failure_json(const RunId& run, const CaseRecord& scene, const RunFailure& failure);
+std::string failure_json(const RunId& run, const CaseRecord& scene, const RunFailure& failure,
+                         const std::optional<std::string>& labels_sha256 = {});
 std::string times_json(const RunId& run, const Modelled& modelled, const Circumstances& circumstances);
 
 /// The journal line for a case: the lines above for each of its runs.

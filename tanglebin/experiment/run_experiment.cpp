@@ -70,7 +70,7 @@ Lines run_cloud(const Dataset& dataset, const ExperimentSettings& settings, cons
       if (modelled.seconds) lines.push_back(times_json(run, modelled, circumstances(place.jobs)));
       return lines;
     } catch (const InputError& error) {
-      return {failure_json(run, record, {FailureOf::method, complaint_of(error), labels})};
+      return {failure_json(run, record, {FailureOf::method, complaint_of(error)}, labels)};
     }
   });
 }

@@ -18,14 +18,13 @@ void add_failure(Json& json, const RunFailure& failure) {
     if (of == failure.of) json["failure_of"] = name;
   }
   json["failure"] = failure.reason;
-  if (failure.labels_sha256) json["labels_sha256"] = *failure.labels_sha256;
 }
 
 std::optional<RunFailure> failure_in(const JsonRecord& record) {
   if (!record.has("failure")) return std::nullopt;
   const std::string found = record.text("failure_of");
   for (const auto& [of, name] : names) {
-    if (found == name) return RunFailure{of, record.text("failure"), record.text_if_there("labels_sha256")};
+    if (found == name) return RunFailure{of, record.text("failure")};
   }
   record.fail("failure_of", excerpt(found), "scene, method or worker");
 }

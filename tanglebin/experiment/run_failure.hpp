@@ -18,7 +18,6 @@ enum class FailureOf {
 struct RunFailure {
   FailureOf of;
   std::string reason;
-  std::optional<std::string> labels_sha256{};  ///< of labels that could not be used; empty if there were none
 };
 
 /// Adds the failure to a line.
