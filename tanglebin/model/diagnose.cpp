@@ -251,14 +251,28 @@ private:
     }
   }
 
+  // Where a tube reaches the image's border, it may go on.
+  bool leaves_image(const Tube& tube) const {
+    return std::ranges::any_of(tube.nodes, [&](const Node& node) {
+      constexpr double near = 2;  // radii
+      const Camera& camera = known_.camera;
+      const auto at = project(camera, node.position);
+      if (!at) return true;
+      const double margin = near * tube.radius * camera.fx / depth_of(camera, node.position);
+      return at->x() < margin || at->x() > camera.width - 1 - margin || at->y() < margin ||
+             at->y() > camera.height - 1 - margin;
+    });
+  }
+
   void doubt_lengths() {
     std::size_t complete = 0;
     std::size_t too_short = 0;
     std::size_t too_long = 0;
     double longest = 0;
-    for (const TubeEvidence& evidence : model_.evidence) {
+    for (std::size_t i = 0; i < model_.tubes.size(); ++i) {
+      const TubeEvidence& evidence = model_.evidence[i];
       complete += evidence.length_fit == LengthFit::complete ? 1 : 0;
-      too_short += evidence.length_fit == LengthFit::too_short ? 1 : 0;
+      if (evidence.length_fit == LengthFit::too_short && !leaves_image(model_.tubes[i])) ++too_short;
       too_long += evidence.length_fit == LengthFit::too_long ? 1 : 0;
       longest = std::max(longest, evidence.length);
     }

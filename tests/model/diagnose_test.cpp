@@ -216,6 +216,20 @@ TEST(Diagnose, DoubtsALengthOnlyIfHardlyATubeHasIt) {
   EXPECT_EQ(text_of(diagnose(view.cloud, view.scene, model, 1)), "");
 }
 
+TEST(Diagnose, DoesNotDoubtTheLengthOfTubesThatTheImageCutsOff) {
+  const View view = right_view();
+  Model model = model_of(view);
+  for (TubeEvidence& tube : model.evidence) tube.length_fit = LengthFit::too_short;
+  KnownScene scene = view.scene;
+  for (const Tube& tube : model.tubes) {
+    const auto end = project(scene.camera, tube.nodes.front().position);
+    ASSERT_TRUE(end);
+    scene.camera.width = std::min(scene.camera.width, static_cast<int>(end->x()) + 1);
+  }
+  EXPECT_THAT(text_of(diagnose(view.cloud, view.scene, model, 1)), HasSubstr("4 of 4 tubes are shorter"));
+  EXPECT_THAT(text_of(diagnose(view.cloud, scene, model, 1)), Not(HasSubstr("shorter")));
+}
+
 TEST(Diagnose, DoesNotAskForTheFloorToBeOfTubesWhereNoneIsKnown) {
   View view = right_view();
   view.scene.support = {.shape = Support::Shape::nothing};
