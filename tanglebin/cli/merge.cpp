@@ -8,6 +8,7 @@
 #include "tanglebin/cli/fill_report.hpp"
 #include "tanglebin/cli/options/arguments.hpp"
 #include "tanglebin/cli/options/many_cases.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
 #include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/dataset/merge_datasets.hpp"
 #include "tanglebin/experiment/results.hpp"
@@ -34,6 +35,7 @@ void merge_experiments(const MergeArguments& arguments, const std::vector<std::f
 }
 
 void merge(const MergeArguments& arguments) {
+  expect_no_input("--out", arguments.out, arguments.parts);
   const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());
   if (std::filesystem::exists(parts.front() / experiment_name)) return merge_experiments(arguments, parts);
   for (const std::string& part : arguments.parts) expect_dataset(part);

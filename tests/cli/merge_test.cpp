@@ -68,6 +68,12 @@ TEST_F(Merge, BadInputIsExitStatusTwoAndOneLine) {
   EXPECT_EQ(merge("").status, 64);
 }
 
+TEST_F(Merge, DoesNotMergeIntoAPart) {
+  const ProgramResult result = run_program("merge " + path("part1") + " --out " + path("part1/"));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("part1/', an input, expected another name"));
+}
+
 TEST_F(Merge, HelpHasAnExample) {
   EXPECT_THAT(run_program("merge --help").out, HasSubstr("tanglebin merge part1 part2 --out dataset"));
 }

@@ -210,6 +210,15 @@ TEST_F(ModelCommand, LeavesNothingBehindWhereAnOutputCannotBeWritten) {
   }
 }
 
+TEST_F(ModelCommand, DoesNotOverwriteItsInput) {
+  std::filesystem::create_symlink(path("scan.ply"), path("link.ply"));
+  for (const std::string name : {"scan.ply", "./scan.ply", "link.ply"}) {
+    const ProgramResult result = run_program("model " + path("scan.ply") + " --out " + path(name));
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("--out: found '" + path(name) + "', an input, expected another name"));
+  }
+}
+
 TEST_F(ModelCommand, RefusesWhatItCannotModel) {
   const std::vector<std::pair<ProgramResult, std::string>> refusals = {
       {model("scan.ply", "--radius 8"), "radius: found 8 m, expected 0.0001 to 1 m; for 8 mm write 0.008"},

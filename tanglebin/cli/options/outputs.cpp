@@ -50,6 +50,14 @@ void expect_outputs(const std::vector<Output>& outputs) {
   }
 }
 
+void expect_no_input(const std::string& option, const std::string& output,
+                     const std::vector<std::string>& inputs) {
+  if (output == standard_stream) return;
+  const auto is_output = [&](const std::string& input) { return place_of(input) == place_of(output); };
+  if (std::ranges::any_of(inputs, is_output))
+    throw InputError({"", 0, option}, excerpt(output) + ", an input", "another name");
+}
+
 bool take_standard_output(const std::vector<Output>& outputs) {
   return std::ranges::find(outputs, standard_stream, &Output::file) != outputs.end();
 }

@@ -18,6 +18,10 @@ struct Output {
 /// two outputs are the same. Standard output, devices and pipes need no extension.
 void expect_outputs(const std::vector<Output>& outputs);
 
+/// Throws InputError naming the option if its file or directory is one of the inputs, by whatever name.
+void expect_no_input(const std::string& option, const std::string& output,
+                     const std::vector<std::string>& inputs);
+
 /// Whether one of them is standard output, which then has room for nothing else.
 bool take_standard_output(const std::vector<Output>& outputs);
 
