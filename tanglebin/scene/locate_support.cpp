@@ -1,5 +1,6 @@
 #include "tanglebin/scene/locate_support.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
@@ -9,26 +10,41 @@ namespace tanglebin {
 
 namespace {
 
-// Where a wall is thinner than assumed, what is behind it is seen where the rim should be. A wall that is
-// thicker than assumed does no harm.
-Located locate_with_any_wall(const PointCloud& cloud, Support bin, const Camera& camera) {
-  const auto measured = [&] {
-    Located located = locate(cloud, bin, camera);
-    located.support.bin.wall = located.measured.wall;
-    return located;
-  };
+bool means_several_places(const InputError& error) {
+  return error.place().field == "support.position";
+}
+
+std::optional<Located> located_unless_refused(const PointCloud& cloud, const Support& bin,
+                                              const Camera& camera) {
   try {
-    return measured();
+    return locate(cloud, bin, camera);
+  } catch (const InputError& error) {
+    if (means_several_places(error)) throw;
+    return std::nullopt;
+  }
+}
+
+// Where a wall is thinner than assumed, what is behind it is seen where the rim should be.
+Located locate_with_assumed_wall(const PointCloud& cloud, Support bin, const Camera& camera) {
+  try {
+    return locate(cloud, bin, camera);
   } catch (const InputError& error) {
     if (error.place().field != "support") throw;
     constexpr double thin = 0.003;  // m
     bin.bin.wall = thin;
-    try {
-      return measured();
-    } catch (const InputError&) {
-      throw error;
-    }
+    std::optional<Located> located = located_unless_refused(cloud, bin, camera);
+    if (!located) throw;
+    return *std::move(located);
   }
+}
+
+// With the wall that was measured, the bin may fit elsewhere too.
+Located locate_with_any_wall(const PointCloud& cloud, Support bin, const Camera& camera) {
+  Located located = locate_with_assumed_wall(cloud, bin, camera);
+  bin.bin.wall = located.measured.wall;
+  if (std::optional<Located> again = located_unless_refused(cloud, bin, camera)) located = *std::move(again);
+  located.support.bin.wall = located.measured.wall;
+  return located;
 }
 
 }  // namespace

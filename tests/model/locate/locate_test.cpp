@@ -151,6 +151,35 @@ TEST(Locate, OfPosesThatLookTheSameTakesTheNearestToTheGuess) {
               0.0005, 0.05);
 }
 
+/// A bin with tubes, and beside it at +y, `distance` (m) from its middle, an empty one.
+ScanOfBin scan_of_two_bins(double distance) {
+  const Camera camera = camera_over(20, 2);
+  ScanOfBin both = scan_of({}, some_tubes(8, {}), camera);
+  const Eigen::Translation3d aside(0, distance, 0);
+  Camera from_second = camera;
+  from_second.pose = aside.inverse() * camera.pose;
+  for (const Eigen::Vector3f& point : scan_of({}, {}, from_second).cloud.points)
+    both.cloud.points.emplace_back((aside * point.cast<double>()).cast<float>());
+  return both;
+}
+
+TEST(Locate, OfTwoBinsTakesTheOneAtTheGuess) {
+  const ScanOfBin scan = scan_of_two_bins(0.5);
+  for (const double at : {0.0, 0.5}) {
+    const Isometry3d truth(Eigen::Translation3d(0, at, 0));
+    const Isometry3d guess(Eigen::Translation3d(-0.05, at + 0.08, 0.03));
+    expect_near(locate(scan.cloud, guessed(scan, guess), scan.camera).support.pose, truth, 0.002, 0.1);
+  }
+}
+
+TEST(Locate, OfTwoBinsTakesNoneIfTheGuessIsAtNeither) {
+  ScanOfBin scan = scan_of_two_bins(0.5);
+  const Isometry3d off(Eigen::Translation3d(0, 0, -2));
+  move_scan(scan, off);
+  EXPECT_THAT(refusal(scan),
+              AllOf(HasSubstr("support.position"), HasSubstr("2 bins of these sizes are seen")));
+}
+
 TEST(Locate, IsNotMisledByTheTableAroundTheBin) {
   ScanOfBin scan = scan_of({.length = 0.35, .width = 0.25, .height = 0.12}, {}, camera_over(20, 1));
   add_table_around(scan, scan.support.bin.wall);
