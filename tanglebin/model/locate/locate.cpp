@@ -596,6 +596,7 @@ Located located_bin(const Support& support, const Camera& camera, const BinFit& 
       .explained = 0,
       .contradicted = 0,
       .measured = fit.sizes,
+      .is_wall_measured = fit.is_wall_measured,
       .parts = parts_of(fit)};
   located.support.pose = camera.pose * pose;
   const auto on = static_cast<double>(total(agreement.explained));
@@ -684,6 +685,7 @@ Located located_plane(const Support& support, const Camera& camera, const PlaneF
                   .explained = fit.explained,
                   .contradicted = fit.below,
                   .measured = support.bin,
+                  .is_wall_measured = false,
                   .parts = {{"plane", fit.points, fit.noise}}};
   located.support.pose = camera.pose * pose;
   return located;

@@ -30,6 +30,7 @@ struct Located {
   double explained;
   double contradicted;
   Bin measured;  ///< a bin's inner sizes and wall, as the points have them; as given where none were seen
+  bool is_wall_measured;  ///< whether measured.wall was seen; else it is nearly as given
   std::vector<LocatedPart> parts;
 };
 

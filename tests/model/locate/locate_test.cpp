@@ -204,6 +204,23 @@ TEST(Locate, FindsABinThroughARealisticScannerAndSaysHowWell) {
   }
 }
 
+// Moves a share of the points along their lines of sight, to anywhere.
+void add_specks(ScanOfBin& scan, double share) {
+  Rng rng(test::seed);
+  const Vector3d camera = scan.camera.pose.translation();
+  for (Eigen::Vector3f& point : scan.cloud.points) {
+    if (uniform_real(rng, 0, 1) > share) continue;
+    point = (camera + uniform_real(rng, 0.7, 1.05) * (point.cast<double>() - camera)).cast<float>();
+  }
+}
+
+TEST(Locate, IsNotMisledBySpecks) {
+  const Bin bin{.length = 0.3, .width = 0.2, .height = 0.12, .wall = 0.003};
+  ScanOfBin scan = scan_of(bin, {}, camera_over(20, 0.6));
+  add_specks(scan, 0.05);
+  expect_near(located_without_guess(scan).support.pose, Isometry3d::Identity(), 0.0005, 0.05);
+}
+
 TEST(Locate, MeasuresTheBinsSizes) {
   ScanOfBin scan = scan_of({.length = 0.553, .width = 0.368}, {}, camera_over(30, 1.2));
   scan.support.bin = {};
