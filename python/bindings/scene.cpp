@@ -158,6 +158,7 @@ void bind_locate(py::module_& module) {
       .def_readonly("explained", &Located::explained, doc::Located_explained)
       .def_readonly("contradicted", &Located::contradicted, doc::Located_explained)
       .def_readonly("measured", &Located::measured, doc::Located_measured)
+      .def_readonly("is_wall_measured", &Located::is_wall_measured, doc::Located_is_wall_measured)
       .def_readonly("parts", &Located::parts, "the surfaces that were seen");
   module.def(
       "locate",

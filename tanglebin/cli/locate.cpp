@@ -58,6 +58,7 @@ void print_json(const LocatedScene& found) {
     json["parts"].push_back(
         {{"name", part.name}, {"points", part.points}, {"noise_mm", part.noise / millimetre}});
   json["notes"] = found.notes;
+  for (const std::string& doubt : found.doubts) json["notes"].push_back(doubt);
   print_json_line(json);
 }
 
@@ -100,6 +101,7 @@ void locate_in_cloud(const LocateArguments& arguments) {
   const LocatedScene found =
       with_file(arguments.cloud, [&] { return locate_support(measured.scene, measured.cloud); });
   print_notes(found.notes);
+  print_notes(found.doubts);
   if (arguments.out) {
     write_output(*arguments.out, bytes_of([&](std::ostream& out) { write_scene(out, found.scene); }));
   }

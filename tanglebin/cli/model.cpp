@@ -131,8 +131,11 @@ void model_cloud(const ModelArguments& arguments) {
   const Measurement measured =
       read_input(arguments.cloud, [&](auto&&... from) { return read_measurement(from..., told); });
   const ResolvedScene resolved = with_file(arguments.cloud, [&] {
-    return resolve(arguments.locates ? locate_support(measured.scene, measured.cloud).scene : measured.scene,
-                   measured.cloud);
+    if (!arguments.locates) return resolve(measured.scene, measured.cloud);
+    const LocatedScene located = locate_support(measured.scene, measured.cloud);
+    ResolvedScene of_located = resolve(located.scene, measured.cloud);
+    of_located.notes.insert(of_located.notes.end(), located.doubts.begin(), located.doubts.end());
+    return of_located;
   });
   print_notes(resolved.notes);
   print_doubts(profile, resolved.known, arguments.model.profile);

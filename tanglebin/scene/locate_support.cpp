@@ -1,34 +1,91 @@
 #include "tanglebin/scene/locate_support.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/median.hpp"
 #include "tanglebin/scene/resolve_scene.hpp"
 
 namespace tanglebin {
 
 namespace {
 
-// Where a wall is thinner than assumed, what is behind it is seen where the rim should be. A wall that is
-// thicker than assumed does no harm.
-Located locate_with_any_wall(const PointCloud& cloud, Support bin, const Camera& camera) {
-  const auto measured = [&] {
-    Located located = locate(cloud, bin, camera);
-    located.support.bin.wall = located.measured.wall;
-    return located;
-  };
+bool means_several_places(const InputError& error) {
+  return error.place().field == "support.position";
+}
+
+std::optional<Located> located_unless_refused(const PointCloud& cloud, const Support& bin,
+                                              const Camera& camera) {
   try {
-    return measured();
+    return locate(cloud, bin, camera);
   } catch (const InputError& error) {
-    if (error.place().field != "support") throw;
-    constexpr double thin = 0.003;  // m
-    bin.bin.wall = thin;
+    if (means_several_places(error)) throw;
+    return std::nullopt;
+  }
+}
+
+// Where a wall is thinner than assumed, what is behind it is seen where the rim should be; where it is much
+// thicker, its outer edge is not found.
+Located locate_with_assumed_wall(const PointCloud& cloud, Support bin, const Camera& camera) {
+  std::optional<Located> first;
+  std::optional<InputError> refusal;
+  for (const double wall : {bin.bin.wall, 0.01, 0.003}) {  // m
+    bin.bin.wall = wall;
     try {
-      return measured();
-    } catch (const InputError&) {
-      throw error;
+      Located located = locate(cloud, bin, camera);
+      if (located.is_wall_measured) return located;
+      if (!first) first = std::move(located);
+    } catch (const InputError& error) {
+      if (error.place().field != "support") throw;
+      if (!refusal) refusal = error;
     }
   }
+  if (!first) throw InputError(*refusal);
+  return *std::move(first);
+}
+
+// With the wall that was measured, the bin may fit elsewhere too.
+Located locate_with_any_wall(const PointCloud& cloud, Support bin, const Camera& camera) {
+  Located located = locate_with_assumed_wall(cloud, bin, camera);
+  if (!located.is_wall_measured) return located;
+  bin.bin.wall = located.measured.wall;
+  if (std::optional<Located> again = located_unless_refused(cloud, bin, camera)) located = *std::move(again);
+  located.support.bin.wall = located.measured.wall;
+  return located;
+}
+
+// Whether the floor is less even than rim and walls are.
+std::optional<std::string> doubt_of_floor(const std::vector<LocatedPart>& parts) {
+  const auto floor = std::ranges::find(parts, "floor", &LocatedPart::name);
+  if (floor == parts.end()) return std::nullopt;
+  std::vector<double> noises;
+  for (const LocatedPart& part : parts) {
+    if (part.name != "floor") noises.push_back(part.noise);
+  }
+  if (noises.empty()) return std::nullopt;
+  constexpr double uneven = 0.001;  // m
+  constexpr double times = 3;
+  const double others = median(std::move(noises));
+  if (floor->noise < std::max(uneven, times * others)) return std::nullopt;
+  return fmt::format(
+      "the floor is uneven by {:.1f} mm, rim and walls by {:.1f} mm: if it bulges or is dirty, the pose is "
+      "off by as much",
+      1000 * floor->noise, 1000 * others);
+}
+
+std::vector<std::string> doubts_of(const Located& located, bool is_wall_unknown) {
+  std::vector<std::string> doubts;
+  if (const auto doubt = doubt_of_floor(located.parts)) doubts.push_back(*doubt);
+  if (is_wall_unknown && !located.is_wall_measured) {
+    doubts.emplace_back(
+        "how thick the walls are is not seen: give wall in [support], or the rim may be taken "
+        "for tubes");
+  }
+  return doubts;
 }
 
 }  // namespace
@@ -43,9 +100,11 @@ LocatedScene locate_support(const Scene& scene, const PointCloud& cloud) {
   const bool is_wall_unknown = support.shape == Support::Shape::bin && !scene.wall_is_given;
   Located located = is_wall_unknown ? locate_with_any_wall(resolved.cloud, support, camera)
                                     : locate(resolved.cloud, support, camera);
-  LocatedScene result{scene, std::move(located), std::move(resolved.notes)};
+  LocatedScene result{scene, std::move(located), std::move(resolved.notes), {}};
+  result.doubts = doubts_of(result.located, is_wall_unknown);
   result.scene.support = result.located.support;
-  result.scene.wall_is_given = true;
+  result.scene.wall_is_given = scene.wall_is_given || result.located.is_wall_measured;
+  if (!result.scene.wall_is_given) result.scene.support->bin.wall = support.bin.wall;
   return result;
 }
 

@@ -11,9 +11,11 @@ namespace tanglebin {
 
 /// A scene whose support was found.
 struct LocatedScene {
-  Scene scene;  ///< as given, with the pose of its support, and a bin's wall as measured if it was not given
-  Located located;                 ///< what was found, in the world frame
-  std::vector<std::string> notes;  ///< of resolve_without_tubes()
+  /// As given, with the pose of its support. A bin's wall that was not given is as measured, if it was.
+  Scene scene;
+  Located located;                  ///< what was found, in the world frame
+  std::vector<std::string> notes;   ///< of resolve_without_tubes()
+  std::vector<std::string> doubts;  ///< why the pose may be less good than usual
 };
 
 /// Finds the scene's support in a cloud, whose coordinates are as its file has them (locate.hpp). Throws

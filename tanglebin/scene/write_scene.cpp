@@ -55,12 +55,14 @@ std::string text_of(const SceneCamera& camera) {
   return text.empty() ? text : "[camera]\n" + text;
 }
 
-std::string text_of(const Support& support) {
+std::string text_of(const Support& support, bool wall_is_given) {
   std::string text = "[support]\n" + line("shape", fmt::format("\"{}\"", name_of(support.shape)));
   if (support.shape == Support::Shape::nothing) return text;
-  if (support.shape == Support::Shape::bin)
+  if (support.shape == Support::Shape::bin) {
     text += line("length", support.bin.length) + line("width", support.bin.width) +
-            line("height", support.bin.height) + line("wall", support.bin.wall);
+            line("height", support.bin.height);
+    if (wall_is_given) text += line("wall", support.bin.wall);
+  }
   if (support.pose.matrix() != Eigen::Matrix4d::Identity()) text += rows_of("support_to_world", support.pose);
   if (support.margin != 0) text += line("margin", support.margin);
   return text;
@@ -82,7 +84,7 @@ std::string text_of(const TubeClass& tubes) {
 void write_scene(std::ostream& out, const Scene& scene) {
   std::vector<std::string> tables;
   if (const std::string camera = text_of(scene.camera); !camera.empty()) tables.push_back(camera);
-  if (scene.support) tables.push_back(text_of(*scene.support));
+  if (scene.support) tables.push_back(text_of(*scene.support, scene.wall_is_given));
   for (const TubeClass& tubes : scene.tubes) tables.push_back(text_of(tubes));
   out << fmt::format("{}", fmt::join(tables, "\n"));
 }

@@ -220,20 +220,40 @@ std::map<std::array<long, 4>, Block> blocks_of(const std::vector<Observation>& o
   return blocks;
 }
 
-// Robust standard deviation of the blocks' mean residuals, m.
-double shared_error(const std::vector<Observation>& observations) {
-  constexpr double enough = 20;
+/// Errors that the points of a block share, m.
+struct SharedErrors {
+  double floor;
+  double others;
+
+  double of_kind(std::size_t kind) const { return kind == 0 ? floor : others; }
+};
+
+double robust_deviation(std::vector<double> distances) {
   constexpr double smallest = 0.0001;
-  std::vector<double> means;
+  return distances.empty() ? smallest
+                           : std::max(deviation_of_median * median(std::move(distances)), smallest);
+}
+
+// Robust standard deviations of the blocks' mean residuals. A floor that bulges, or is covered with dirt, has
+// a greater one than the other surfaces.
+SharedErrors shared_errors(const std::vector<Observation>& observations) {
+  constexpr double enough = 20;
+  constexpr std::size_t blocks_min = 4;
+  std::vector<double> of_all;
+  std::vector<double> of_floor;
   for (const auto& [place, block] : blocks_of(observations)) {
-    if (block.weight > enough) means.push_back(std::abs(block.sum / block.weight));
+    if (block.weight <= enough) continue;
+    of_all.push_back(std::abs(block.sum / block.weight));
+    if (place[0] == 0) of_floor.push_back(of_all.back());
   }
-  return means.empty() ? smallest : std::max(deviation_of_median * median(std::move(means)), smallest);
+  const bool is_floor_seen = of_floor.size() >= blocks_min;
+  const double overall = robust_deviation(std::move(of_all));
+  return {is_floor_seen ? std::max(overall, robust_deviation(std::move(of_floor))) : overall, overall};
 }
 
 // Gives each observation a variance, with what its block shares, and takes trust from outliers (Tukey's
 // biweight).
-void weigh(std::vector<Observation>& observations, const Gates& gates, double shared) {
+void weigh(std::vector<Observation>& observations, const Gates& gates, const SharedErrors& errors) {
   const Spreads spreads = spreads_of(observations);
   for (Observation& observation : observations) {
     const double ratio = observation.residual / gates.at(observation.kind);
@@ -242,6 +262,7 @@ void weigh(std::vector<Observation>& observations, const Gates& gates, double sh
   const auto blocks = blocks_of(observations);
   for (Observation& observation : observations) {
     const double spread = spreads.at(observation.kind);
+    const double shared = errors.of_kind(observation.kind);
     observation.variance = spread * spread + blocks.at(block_of(observation)).weight * shared * shared;
   }
 }
@@ -374,7 +395,7 @@ void approach(const SensorView& view, const BinToFit& known, State& state,
   for (const double gate : {0.03, 0.03, 0.02, 0.02, 0.012, 0.012, 0.008, 0.008}) {
     const Gates gates = same_gates(gate + known.margin);
     std::vector<Observation> observations = observe(state, points, edges, gates, false);
-    weigh(observations, gates, rough_error);
+    weigh(observations, gates, {rough_error, rough_error});
     improve(view, firm, state, observations);
   }
 }
@@ -420,6 +441,11 @@ void add_error_of_calibration(BinFit& fit) {
   }
 }
 
+// A floor that bulges is all on one side of where it should be.
+void add_error_of_floor(BinFit& fit, const SharedErrors& shared) {
+  fit.covariance(2, 2) += shared.floor * shared.floor - shared.others * shared.others;
+}
+
 }  // namespace
 
 double closeness_of(const BinToFit& known) {
@@ -439,12 +465,13 @@ BinFit fit_bin(const SensorView& view, const BinToFit& known, const Isometry3d& 
   constexpr std::size_t points_max = 60000;
   constexpr int rounds = 8;
   constexpr int rounds_with_same_edges = 4;
+  constexpr double wall_sd_max = 0.0007;  // m; what is seen says more than what is known without looking
   State state = start(known, pose);
   const std::vector<Vector3d> points = points_near(view, state, points_max);
   std::vector<RimEdge> edges = edges_near(view, known, state);
   approach(view, known, state, points, edges);
   Gates gates = same_gates(0.005 + known.margin);
-  double shared = 0.0003;
+  SharedErrors shared{0.0003, 0.0003};
   std::vector<Observation> observations;
   Square information;
   for (int round = 0; round < rounds; ++round) {
@@ -452,14 +479,17 @@ BinFit fit_bin(const SensorView& view, const BinToFit& known, const Isometry3d& 
     observations = observe(state, points, edges, gates, true);
     drop_clutter(observations, known);
     weigh(observations, gates, shared);
-    shared = shared_error(observations);
+    shared = shared_errors(observations);
     gates = narrowed(observations, known.margin);
     information = improve(view, known, state, observations);
   }
   BinFit fit{.pose = state.pose, .sizes = state.bin};
   describe(observations, fit);
-  fit.covariance = information.inverse().topLeftCorner<6, 6>();
+  const Square covariance = information.inverse();
+  fit.covariance = covariance.topLeftCorner<6, 6>();
+  fit.is_wall_measured = covariance(of_wall, of_wall) < wall_sd_max * wall_sd_max;
   add_error_of_calibration(fit);
+  add_error_of_floor(fit, shared);
   return fit;
 }
 

@@ -33,7 +33,8 @@ struct BinFit {
   Bin sizes;               ///< as the points have them, as far as they do; else nominal
   double residual = 0;     ///< m, RMS distance of the points on its surfaces
   std::array<PartFit, part_count> parts{};
-  int edges = 0;  ///< pixels at which the rim ends
+  int edges = 0;                  ///< pixels at which the rim ends
+  bool is_wall_measured = false;  ///< whether its thickness was seen; else it is nearly as given
   /// Of translation (m) and rotation (rad) in the bin's frame.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };

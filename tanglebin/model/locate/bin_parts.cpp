@@ -1,5 +1,6 @@
 #include "tanglebin/model/locate/bin_parts.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tanglebin/geometry/intersect.hpp"
@@ -81,6 +82,11 @@ PartPlane plane_of_part(const Bin& bin, std::size_t part) {
   const Vector3d outwards = side_of_wall(wall) * Vector3d::Unit(axis);
   if (kind == PartKind::inner) return {-outwards, -half};
   return {outwards, half + bin.wall};
+}
+
+double least_distance(const Bin& bin) {
+  constexpr double inaccuracy = 0.9;
+  return inaccuracy * std::min(bin.length, bin.width);
 }
 
 std::optional<PartHit> first_hit(const std::array<AlignedBox3d, 5>& boxes, const Bin& bin, const Ray& ray) {

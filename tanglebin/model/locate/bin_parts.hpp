@@ -40,6 +40,9 @@ struct PartPlane {
 };
 PartPlane plane_of_part(const Bin& bin, std::size_t part);
 
+/// The middles of two bins that stand side by side are at least so far apart, m.
+double least_distance(const Bin& bin);
+
 /// Where a ray first meets a bin.
 struct PartHit {
   std::size_t part;

@@ -186,10 +186,16 @@ double reach_of(const Plan& plan) {
   return std::min(reach, farthest);
 }
 
+// Where a bin stands, another cannot.
+bool are_beside(const Bin& bin, const Isometry3d& first, const Isometry3d& second) {
+  return (first.translation() - second.translation()).norm() > least_distance(bin);
+}
+
 // A bin that is turned by 180° is the same.
 std::vector<Placed> places_on(const Plan& plan, const Bin& bin) {
   constexpr int yaws = 120;
   constexpr std::size_t kept = 12;
+  constexpr std::size_t kept_beside = 4;  // of the best: a second bin
   const double reach = reach_of(plan);
   std::vector<Placed> placed;
   for (int i = 0; i < yaws; ++i) {
@@ -203,10 +209,16 @@ std::vector<Placed> places_on(const Plan& plan, const Bin& bin) {
         placed.push_back({pose_on(plan, yaw, at_x.middle, at_y.middle), at_x.fit + at_y.fit});
     }
   }
-  const auto best = placed.begin() + static_cast<std::ptrdiff_t>(std::min(kept, placed.size()));
-  std::ranges::partial_sort(placed, best, [](const Placed& a, const Placed& b) { return a.fit > b.fit; });
-  placed.erase(best, placed.end());
-  return placed;
+  std::ranges::stable_sort(placed, [](const Placed& a, const Placed& b) { return a.fit > b.fit; });
+  std::vector<Placed> best;
+  std::size_t beside = 0;
+  for (const Placed& place : placed) {
+    const bool is_second = are_beside(bin, place.pose, placed.front().pose) && beside < kept_beside;
+    if (best.size() - beside >= kept && !is_second) continue;
+    best.push_back(place);
+    if (is_second) ++beside;
+  }
+  return best;
 }
 
 // So near that a fit from either ends at the same pose.
@@ -252,7 +264,11 @@ std::vector<Isometry3d> possible_poses(const SensorView& view, const std::vector
       for (const Placed& placed : places_on(plan, bin))
         on_plane.push_back({placed.pose, score_of(verdicts(view, tested, bin, placed.pose, 2 * closeness))});
       // A table has many places for a floor, which must not crowd out the rim's.
-      for (const Scored& one : apart(std::move(on_plane), kept_on_plane)) scored.push_back(one);
+      const std::vector<Scored> best = apart(on_plane, kept_on_plane);
+      scored.insert(scored.end(), best.begin(), best.end());
+      std::erase_if(on_plane,
+                    [&](const Scored& one) { return !are_beside(bin, one.pose, best.front().pose); });
+      for (const Scored& second : apart(std::move(on_plane), 1)) scored.push_back(second);
     }
   }
   std::vector<Isometry3d> poses;

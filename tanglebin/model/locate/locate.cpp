@@ -31,8 +31,8 @@ using Eigen::Vector3d;
 
 constexpr std::size_t rays = 8000;  // for an agreement
 
-[[noreturn]] void refuse(const std::string& problem) {
-  throw InputError({.file = "", .line = 0, .field = "support"}, "not located: " + problem);
+[[noreturn]] void refuse(const std::string& problem, const char* field = "support") {
+  throw InputError({.file = "", .line = 0, .field = field}, "not located: " + problem);
 }
 
 /// What all steps know.
@@ -408,6 +408,16 @@ Fault fault_of(const Task& task, const Fitted& found) {
   return fault_of_opening(task, found);
 }
 
+// A box whose inside is not seen, such as one under a table, may fit best where a bin is not wholly as told.
+const Candidate& best_seen_inside(const std::vector<Candidate>& candidates) {
+  constexpr double as_good = 0.5;
+  for (const Candidate& candidate : candidates) {
+    if (candidate.score < as_good * candidates.front().score) break;
+    if (!fault_of_inside(agreement_of(candidate.verdicts))) return candidate;
+  }
+  return candidates.front();
+}
+
 // At the best candidate at which a bin can be and is determined; else at the best.
 Fitted best_fitted(const Task& task, const std::vector<Candidate>& candidates) {
   for (const Candidate& candidate : candidates) {
@@ -415,7 +425,7 @@ Fitted best_fitted(const Task& task, const std::vector<Candidate>& candidates) {
     Fitted found = fitted_near(task, candidate);
     if (is_determined(task.known.bin, found.fit) && !fault_of(task, found)) return found;
   }
-  return fitted_near(task, candidates.front());
+  return fitted_near(task, best_seen_inside(candidates));
 }
 
 bool are_same(const Bin& bin, const Isometry3d& first, const Isometry3d& second) {
@@ -425,63 +435,124 @@ bool are_same(const Bin& bin, const Isometry3d& first, const Isometry3d& second)
   return distance < apart && angle < turned;
 }
 
-// Another place for the bin, where it fits about as well.
-void expect_no_rival(const Task& task, const Candidate& best, const std::vector<Candidate>& others) {
-  constexpr double as_good = 0.6;
-  const Bin& bin = task.known.bin;
-  for (const Candidate& rival : others) {
-    if (are_same(bin, best.pose, rival.pose) || !is_possible(rival, bin)) continue;
-    if (rival.score < as_good * best.score) continue;
-    if (advantage(rival, best) < as_good * advantage(best, rival)) continue;
-    const Fitted found = fitted_near(task, rival);
-    if (!is_determined(bin, found.fit) || are_same(bin, best.pose, found.fit.pose)) continue;
-    if (fault_of(task, found)) continue;
-    const auto [distance, angle] = difference(bin, best.pose, found.fit.pose);
-    refuse(fmt::format("two poses fit equally well; one is {:.0f} mm and {:.0f}° from the other",
-                       1e3 * distance, angle / degree));
+// Of what should be seen of rim and walls and is not hidden, the share that is, less what contradicts.
+double share_of_structure(const Candidate& candidate) {
+  int open = 0;
+  int value = 0;
+  for (const PixelVerdict& pixel : candidate.verdicts) {
+    if (!pixel.part || kind_of_part(*pixel.part) == PartKind::floor || pixel.verdict == Verdict::hidden)
+      continue;
+    ++open;
+    value += value_of(pixel.verdict);
   }
+  return open == 0 ? 0 : static_cast<double>(value) / open;
 }
 
-void expect_determined(const Bin& bin, const BinFit& fit) {
-  if (is_determined(bin, fit)) return;
+// Whether a rival fits about as well as the best. Of two bins side by side, that with the most tubes shows
+// least of itself.
+bool fits_as_well(const Bin& bin, const Candidate& rival, const Candidate& best) {
+  constexpr double as_good = 0.6;
+  if (difference(bin, best.pose, rival.pose).distance > least_distance(bin))
+    return share_of_structure(rival) >= as_good * share_of_structure(best);
+  return rival.score >= as_good * best.score && advantage(rival, best) >= as_good * advantage(best, rival);
+}
+
+Fault fault_of_determination(const Bin& bin, const BinFit& fit) {
+  if (is_determined(bin, fit)) return std::nullopt;
   const double sd = corner_sd(bin, fit.covariance);
   const auto position = fit.covariance.diagonal().head<3>().cwiseSqrt().eval();
-  refuse(
-      fmt::format("what is seen of the bin does not determine its pose: a corner is known to {:.0f} mm, the "
-                  "middle to {:.1f}, {:.1f} and {:.1f} mm along x, y and z",
-                  1e3 * sd, 1e3 * position.x(), 1e3 * position.y(), 1e3 * position.z()));
+  return fmt::format(
+      "what is seen of the bin does not determine its pose: a corner is known to {:.0f} mm, the middle to "
+      "{:.1f}, {:.1f} and {:.1f} mm along x, y and z",
+      1e3 * sd, 1e3 * position.x(), 1e3 * position.y(), 1e3 * position.z());
 }
 
-void expect_size(const char* name, double measured, double given, double margin) {
+Fault fault_of_size(const char* name, double measured, double given, double margin) {
   constexpr double least = 0.005;  // m
   constexpr double share = 0.01;
-  if (std::abs(measured - given) <= margin + std::max(least, share * given)) return;
-  refuse(fmt::format("the bin's {} is {:.3f} m in the cloud, but given as {:.3f} m", name, measured, given));
+  if (std::abs(measured - given) <= margin + std::max(least, share * given)) return std::nullopt;
+  return fmt::format("the bin's {} is {:.3f} m in the cloud, but given as {:.3f} m", name, measured, given);
 }
 
-void expect_sizes(const Bin& given, double margin, const Bin& measured) {
-  expect_size("length", measured.length, given.length, 2 * margin);
-  expect_size("width", measured.width, given.width, 2 * margin);
-  expect_size("height", measured.height, given.height, margin);
+Fault fault_of_sizes(const Bin& given, double margin, const Bin& measured) {
+  if (Fault fault = fault_of_size("length", measured.length, given.length, 2 * margin)) return fault;
+  if (Fault fault = fault_of_size("width", measured.width, given.width, 2 * margin)) return fault;
+  return fault_of_size("height", measured.height, given.height, margin);
 }
 
 // Something flat over a floor that is not seen is the floor itself.
-void expect_no_higher_floor(const std::vector<FlatPlane>& planes, const Bin& bin, const Isometry3d& pose,
-                            const Agreement& agreement) {
+Fault fault_of_floor(const std::vector<FlatPlane>& planes, const Bin& bin, const Isometry3d& pose,
+                     const Agreement& agreement) {
   constexpr double share_seen = 0.1;
   constexpr double parallel = 3 * degree;
   constexpr double share_of_floor = 0.1;
   constexpr double apart = 0.01;  // m
-  if (agreement.explained[0] > share_seen * agreement.expected[0]) return;
+  if (agreement.explained[0] > share_seen * agreement.expected[0]) return std::nullopt;
   for (const FlatPlane& plane : planes) {
     const double height = plane.offset - plane.normal.dot(pose.translation());
     if (plane.normal.dot(pose.linear().col(2)) < std::cos(parallel) || height < apart ||
         height > bin.height - apart || plane.area < share_of_floor * bin.length * bin.width)
       continue;
-    refuse(fmt::format(
+    return fmt::format(
         "the floor is {:.3f} m under the rim in the cloud, but the bin's height is given as {:.3f} m",
-        bin.height - height, bin.height));
+        bin.height - height, bin.height);
   }
+  return std::nullopt;
+}
+
+// Why a fit is not the bin that was told of, for sure.
+Fault fault_of_all(const Task& task, const std::vector<FlatPlane>& planes, const Fitted& found) {
+  const Bin& bin = task.known.bin;
+  if (Fault fault = fault_of_sizes(bin, task.known.margin, found.fit.sizes)) return fault;
+  if (Fault fault = fault_of(task, found)) return fault;
+  if (Fault fault = fault_of_floor(planes, bin, found.fit.pose, agreement_of(found.seen.verdicts)))
+    return fault;
+  return fault_of_determination(bin, found.fit);
+}
+
+// The best, then all other places for the bin where it fits about as well.
+std::vector<Fitted> with_rivals(const Task& task, const std::vector<FlatPlane>& planes, Fitted best,
+                                const std::vector<Candidate>& candidates) {
+  const Bin& bin = task.known.bin;
+  std::vector<Fitted> places{std::move(best)};
+  const auto is_known = [&](const Isometry3d& pose) {
+    return std::ranges::any_of(places,
+                               [&](const Fitted& place) { return are_same(bin, place.seen.pose, pose); });
+  };
+  for (const Candidate& rival : candidates) {
+    if (is_known(rival.pose) || !is_possible(rival, bin)) continue;
+    if (!fits_as_well(bin, rival, places.front().seen)) continue;
+    Fitted found = fitted_near(task, rival);
+    if (!is_known(found.fit.pose) && !fault_of_all(task, planes, found)) places.push_back(std::move(found));
+  }
+  return places;
+}
+
+// The only place, or that of several bins which the guess means: it is much nearer than all others.
+Fitted one_of(std::vector<Fitted> places, const Bin& bin, const Isometry3d& guess,
+              const Isometry3d& to_world) {
+  if (places.size() == 1) return places.front();
+  const Fitted best = places.front();
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const auto [distance, angle] = difference(bin, best.fit.pose, places[i].fit.pose);
+    if (distance > least_distance(bin)) continue;
+    refuse(fmt::format("two poses fit equally well; one is {:.0f} mm and {:.0f}° from the other",
+                       1e3 * distance, angle / degree));
+  }
+  const auto distance_of = [&](const Fitted& place) {
+    return (place.fit.pose.translation() - guess.translation()).norm();
+  };
+  std::ranges::stable_sort(places, {}, distance_of);
+  constexpr double much_nearer = 0.5;
+  if (distance_of(places[0]) < bin.length && distance_of(places[0]) < much_nearer * distance_of(places[1]))
+    return places.front();
+  const Vector3d first = to_world * places[0].fit.pose.translation();
+  const Vector3d second = to_world * places[1].fit.pose.translation();
+  refuse(fmt::format("{} bins of these sizes are seen, one at [{:.3f}, {:.3f}, {:.3f}] and one at [{:.3f}, "
+                     "{:.3f}, {:.3f}] m; "
+                     "give the position of the one that is meant, roughly",
+                     places.size(), first.x(), first.y(), first.z(), second.x(), second.y(), second.z()),
+         "support.position");
 }
 
 std::vector<LocatedPart> parts_of(const BinFit& fit) {
@@ -525,6 +596,7 @@ Located located_bin(const Support& support, const Camera& camera, const BinFit& 
       .explained = 0,
       .contradicted = 0,
       .measured = fit.sizes,
+      .is_wall_measured = fit.is_wall_measured,
       .parts = parts_of(fit)};
   located.support.pose = camera.pose * pose;
   const auto on = static_cast<double>(total(agreement.explained));
@@ -560,14 +632,12 @@ Located locate_bin(const SensorView& view, const Support& support, const Camera&
       view, patches, planes, support.bin, std::max(least, deviations * task.known.noise) + support.margin);
   if (poses.empty()) refuse("no plane that faces the camera is seen");
   const std::vector<Candidate> candidates = candidates_of(task, poses);
-  const Fitted found = best_fitted(task, candidates);
-  const Agreement agreement = agreement_of(found.seen.verdicts);
-  expect_sizes(support.bin, support.margin, found.fit.sizes);
-  if (const Fault fault = fault_of(task, found)) refuse(*fault);
-  expect_no_higher_floor(planes, support.bin, found.fit.pose, agreement);
-  expect_determined(support.bin, found.fit);
-  expect_no_rival(task, found.seen, candidates);
-  return located_bin(support, camera, found.fit, agreement);
+  Fitted best = best_fitted(task, candidates);
+  if (const Fault fault = fault_of_all(task, planes, best)) refuse(*fault);
+  const Isometry3d guess = camera.pose.inverse(Eigen::Isometry) * support.pose;
+  const Fitted found =
+      one_of(with_rivals(task, planes, std::move(best), candidates), support.bin, guess, camera.pose);
+  return located_bin(support, camera, found.fit, agreement_of(found.seen.verdicts));
 }
 
 // The lowest large plane.
@@ -615,6 +685,7 @@ Located located_plane(const Support& support, const Camera& camera, const PlaneF
                   .explained = fit.explained,
                   .contradicted = fit.below,
                   .measured = support.bin,
+                  .is_wall_measured = false,
                   .parts = {{"plane", fit.points, fit.noise}}};
   located.support.pose = camera.pose * pose;
   return located;

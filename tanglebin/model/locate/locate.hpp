@@ -30,6 +30,7 @@ struct Located {
   double explained;
   double contradicted;
   Bin measured;  ///< a bin's inner sizes and wall, as the points have them; as given where none were seen
+  bool is_wall_measured;  ///< whether measured.wall was seen; else it is nearly as given
   std::vector<LocatedPart> parts;
 };
 
@@ -38,14 +39,15 @@ struct Located {
 /// rim. Tubes may hide most of the floor. The bin need not be level, and its yaw may be anything.
 ///
 /// A bin looks the same turned by 180° (by 90° too if it is square): of these poses, the result is the one
-/// nearest to support.pose. Otherwise that pose does not matter for a bin. A plane is the lowest large one;
-/// its z axis points to the camera's side, its origin is that of support.pose, moved onto the plane, and its
-/// x axis that of support.pose, turned into the plane.
+/// nearest to support.pose. Of several bins of these sizes, it is the one that is much nearer to support.pose
+/// than the others. Otherwise that pose does not matter for a bin. A plane is the lowest large one; its z
+/// axis points to the camera's side, its origin is that of support.pose, moved onto the plane, and its x axis
+/// that of support.pose, turned into the plane.
 ///
 /// Deterministic. Throws InputError as validate(Support) does, and naming `cloud` or `support` where the
 /// support is not found, or not surely: too few points in the image, a wall or the rim is not where the sizes
 /// have it, two poses fit equally well, the position is not determined by what was seen, the best plane cuts
-/// through the tubes.
+/// through the tubes. Names `support.position` where there are several bins and none is much nearer.
 Located locate(const PointCloud& cloud, const Support& support, const Camera& camera);
 
 }  // namespace tanglebin

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -40,6 +42,37 @@ void expect_points(std::size_t finite, std::size_t in_image) {
                     in_image, finite),
         "most of them");
   }
+}
+
+// Whether hardly any of the pixels around has a point near this one's: it is no part of a surface.
+bool is_speck(const SensorView& view, std::size_t pixel) {
+  constexpr float step = 10;  // pixels: of a surface that is seen at a grazing angle
+  constexpr int neighbours_min = 5;
+  constexpr int near_min = 2;
+  const auto width = static_cast<std::size_t>(view.camera.width);
+  const int column = static_cast<int>(pixel % width);
+  const int row = static_cast<int>(pixel / width);
+  const float depth = view.points[pixel].z();
+  const float tolerance = step * static_cast<float>(view.pixel_size(depth));
+  int neighbours = 0;
+  int near = 0;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const float other = view.at(column + dx, row + dy).z();
+      if ((dx == 0 && dy == 0) || std::isnan(other)) continue;
+      ++neighbours;
+      if (std::abs(other - depth) < tolerance) ++near;
+    }
+  }
+  return neighbours >= neighbours_min && near < near_min;
+}
+
+void drop_specks(SensorView& view) {
+  std::vector<std::size_t> specks;
+  std::ranges::copy_if(view.seen, std::back_inserter(specks),
+                       [&](std::size_t pixel) { return is_speck(view, pixel); });
+  for (const std::size_t pixel : specks) view.points[pixel] = nothing();
+  std::erase_if(view.seen, [&](std::size_t pixel) { return !view.points[pixel].allFinite(); });
 }
 
 }  // namespace
@@ -80,6 +113,7 @@ SensorView view_of(const PointCloud& cloud, const Camera& camera) {
   for (std::size_t i = 0; i < view.points.size(); ++i) {
     if (view.points[i].allFinite()) view.seen.push_back(i);
   }
+  drop_specks(view);
   return view;
 }
 

@@ -26,8 +26,9 @@ struct SensorView {
   double pixel_size(double depth) const { return depth / camera.fx; }
 };
 
-/// The view of a cloud (m, world frame). Of several points in one pixel, the nearest stays. Throws InputError
-/// if less than half of the points, or fewer than a thousand, are in the camera's image.
+/// The view of a cloud (m, world frame). Of several points in one pixel, the nearest stays; single points far
+/// in front of or behind all around them are left out. Throws InputError if less than half of the points, or
+/// fewer than a thousand, are in the camera's image.
 SensorView view_of(const PointCloud& cloud, const Camera& camera);
 
 }  // namespace tanglebin

@@ -151,6 +151,35 @@ TEST(Locate, OfPosesThatLookTheSameTakesTheNearestToTheGuess) {
               0.0005, 0.05);
 }
 
+/// A bin with tubes, and beside it at +y, `distance` (m) from its middle, an empty one.
+ScanOfBin scan_of_two_bins(double distance) {
+  const Camera camera = camera_over(20, 2);
+  ScanOfBin both = scan_of({}, some_tubes(8, {}), camera);
+  const Eigen::Translation3d aside(0, distance, 0);
+  Camera from_second = camera;
+  from_second.pose = aside.inverse() * camera.pose;
+  for (const Eigen::Vector3f& point : scan_of({}, {}, from_second).cloud.points)
+    both.cloud.points.emplace_back((aside * point.cast<double>()).cast<float>());
+  return both;
+}
+
+TEST(Locate, OfTwoBinsTakesTheOneAtTheGuess) {
+  const ScanOfBin scan = scan_of_two_bins(0.5);
+  for (const double at : {0.0, 0.5}) {
+    const Isometry3d truth(Eigen::Translation3d(0, at, 0));
+    const Isometry3d guess(Eigen::Translation3d(-0.05, at + 0.08, 0.03));
+    expect_near(locate(scan.cloud, guessed(scan, guess), scan.camera).support.pose, truth, 0.002, 0.1);
+  }
+}
+
+TEST(Locate, OfTwoBinsTakesNoneIfTheGuessIsAtNeither) {
+  ScanOfBin scan = scan_of_two_bins(0.5);
+  const Isometry3d off(Eigen::Translation3d(0, 0, -2));
+  move_scan(scan, off);
+  EXPECT_THAT(refusal(scan),
+              AllOf(HasSubstr("support.position"), HasSubstr("2 bins of these sizes are seen")));
+}
+
 TEST(Locate, IsNotMisledByTheTableAroundTheBin) {
   ScanOfBin scan = scan_of({.length = 0.35, .width = 0.25, .height = 0.12}, {}, camera_over(20, 1));
   add_table_around(scan, scan.support.bin.wall);
@@ -173,6 +202,23 @@ TEST(Locate, FindsABinThroughARealisticScannerAndSaysHowWell) {
     EXPECT_GT(located.position_sd[axis], 0);
     EXPECT_LT(std::abs(located.support.pose.translation()[axis]), 4 * located.position_sd[axis]);
   }
+}
+
+// Moves a share of the points along their lines of sight, to anywhere.
+void add_specks(ScanOfBin& scan, double share) {
+  Rng rng(test::seed);
+  const Vector3d camera = scan.camera.pose.translation();
+  for (Eigen::Vector3f& point : scan.cloud.points) {
+    if (uniform_real(rng, 0, 1) > share) continue;
+    point = (camera + uniform_real(rng, 0.7, 1.05) * (point.cast<double>() - camera)).cast<float>();
+  }
+}
+
+TEST(Locate, IsNotMisledBySpecks) {
+  const Bin bin{.length = 0.3, .width = 0.2, .height = 0.12, .wall = 0.003};
+  ScanOfBin scan = scan_of(bin, {}, camera_over(20, 0.6));
+  add_specks(scan, 0.05);
+  expect_near(located_without_guess(scan).support.pose, Isometry3d::Identity(), 0.0005, 0.05);
 }
 
 TEST(Locate, MeasuresTheBinsSizes) {
