@@ -441,11 +441,6 @@ void add_error_of_calibration(BinFit& fit) {
   }
 }
 
-// A floor that bulges is all on one side of where it should be.
-void add_error_of_floor(BinFit& fit, const SharedErrors& shared) {
-  fit.covariance(2, 2) += shared.floor * shared.floor - shared.others * shared.others;
-}
-
 }  // namespace
 
 double closeness_of(const BinToFit& known) {
@@ -489,7 +484,8 @@ BinFit fit_bin(const SensorView& view, const BinToFit& known, const Isometry3d& 
   fit.covariance = covariance.topLeftCorner<6, 6>();
   fit.is_wall_measured = covariance(of_wall, of_wall) < wall_sd_max * wall_sd_max;
   add_error_of_calibration(fit);
-  add_error_of_floor(fit, shared);
+  // A floor that bulges is all on one side of where it should be.
+  fit.floor_variance = shared.floor * shared.floor - shared.others * shared.others;
   return fit;
 }
 

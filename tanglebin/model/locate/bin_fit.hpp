@@ -35,8 +35,9 @@ struct BinFit {
   std::array<PartFit, part_count> parts{};
   int edges = 0;                  ///< pixels at which the rim ends
   bool is_wall_measured = false;  ///< whether its thickness was seen; else it is nearly as given
-  /// Of translation (m) and rotation (rad) in the bin's frame.
+  /// Of translation (m) and rotation (rad) in the bin's frame, if its floor is as even as rim and walls.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  double floor_variance = 0;  ///< m², of the height, because the floor is less even
 };
 
 /// Moves a bin by a few centimetres and degrees onto the surfaces seen. Rough.

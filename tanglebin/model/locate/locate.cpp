@@ -587,9 +587,11 @@ Located located_bin(const Support& support, const Camera& camera, const BinFit& 
   const Isometry3d pose = nearest_of_same(support.bin, fit.pose, guess);
   // A quarter turn swaps what belongs to x and to y.
   const Matrix3d turn = pose.linear().transpose() * fit.pose.linear();
+  Matrix3d of_position = turn * fit.covariance.topLeftCorner<3, 3>() * turn.transpose();
+  of_position(2, 2) += fit.floor_variance;
   Located located{
       .support = support,
-      .position_sd = (turn * fit.covariance.topLeftCorner<3, 3>() * turn.transpose()).diagonal().cwiseSqrt(),
+      .position_sd = of_position.diagonal().cwiseSqrt(),
       .rotation_sd =
           (turn * fit.covariance.bottomRightCorner<3, 3>() * turn.transpose()).diagonal().cwiseSqrt(),
       .residual = fit.residual,
