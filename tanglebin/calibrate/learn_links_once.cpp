@@ -18,14 +18,14 @@ namespace tanglebin {
 namespace {
 
 LinkWeights weights_from(const Dataset& dataset, const std::vector<CaseId>& scenes) {
-  std::vector<EndExample> examples;
+  std::vector<LinkScene> seen;
   for (const CaseId& id : scenes) {
     for (const Scanner& scanner : scanners(dataset.recipe)) {
       stop_if_asked();
-      std::ranges::copy(end_examples(dataset, {id, scanner.name}), std::back_inserter(examples));
+      std::ranges::move(link_scenes(dataset, {id, scanner.name}), std::back_inserter(seen));
     }
   }
-  return learn_weights(examples);
+  return learn_weights(seen);
 }
 
 // With four decimals, as those that ship.

@@ -46,7 +46,7 @@ std::vector<Example> examples_of(const std::vector<std::string>& datasets,
     const Dataset dataset = read_dataset(directory);
     for (const CaseId& id : cases(dataset)) {
       for (const Scanner& scanner : scanners(dataset.recipe))
-        std::ranges::copy(of_case(dataset, {id, scanner.name}), std::back_inserter(all));
+        std::ranges::move(of_case(dataset, {id, scanner.name}), std::back_inserter(all));
     }
   }
   return all;
@@ -58,17 +58,16 @@ struct Count {
   int true_links = 0;
 };
 
-Count count(const std::vector<EndExample>& ends, LinkKind kind) {
+Count count(const std::vector<LinkScene>& scenes, LinkKind kind) {
   Count result;
-  for (const EndExample& end : ends) {
-    for (const LinkExample& link : end) {
-      if (link.kind != kind) continue;
+  for (const LinkScene& scene : scenes) {
+    for (std::size_t i = 0; i < scene.links.size(); ++i) {
+      if (scene.links[i].kind != kind) continue;
       ++result.links;
-      if (link.is_true) ++result.true_links;
+      if (scene.is_true[i]) ++result.true_links;
     }
   }
-  // A link is an example for each end that it uses up.
-  return {result.links / ends_taken(kind), result.true_links / ends_taken(kind)};
+  return result;
 }
 
 /// Tubes by their confidence.
@@ -127,13 +126,13 @@ void write_weights(const LinkWeights& weights, const LearnArguments& arguments) 
 }
 
 void learn_for_links(const LearnArguments& arguments) {
-  const std::vector<EndExample> examples = examples_of(arguments.datasets, end_examples);
-  const LinkWeights weights = learn_weights(examples);
+  const std::vector<LinkScene> scenes = examples_of(arguments.datasets, link_scenes);
+  const LinkWeights weights = learn_weights(scenes);
   if (arguments.out) write_weights(weights, arguments);
   if (take_standard_output(outputs(arguments))) return;
   nlohmann::ordered_json json;
   for (const LinkKind kind : link_kinds) {
-    const auto [links, true_links] = count(examples, kind);
+    const auto [links, true_links] = count(scenes, kind);
     json[name_of(kind)] = {{"links", links}, {"true", true_links}, {"weights", weights.of(kind)}};
     if (!arguments.json) {
       print_out("{:<10} {{{:.4f}}}  from {} links, {} true\n", name_of(kind),
@@ -169,9 +168,9 @@ void add_learn(CLI::App& app) {
   command->add_flag("--json", arguments->json, "Print the weights as JSON");
   command->footer(
       "Example:\n  tanglebin learn dataset --out profile.toml\n"
-      "The built-in weights are from recipes/learning.toml; those of the confidence from "
-      "recipes/confidence.toml,\n"
-      "recipes/confidence-zivid.toml and recipes/bars.toml (docs/robustness.md#confidence).");
+      "The built-in weights are from recipes/learning.toml and recipes/learning-views.toml; those of the\n"
+      "confidence from recipes/confidence.toml, recipes/confidence-zivid.toml and recipes/bars.toml\n"
+      "(docs/robustness.md#confidence).");
   command->callback([arguments] { learn(*arguments); });
 }
 

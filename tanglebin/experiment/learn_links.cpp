@@ -4,84 +4,15 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <iterator>
 #include <utility>
 
-#include "tanglebin/experiment/run.hpp"
-#include "tanglebin/model/axis/axis_method.hpp"
-#include "tanglebin/score/centre_line.hpp"
-#include "tanglebin/score/score_clouds.hpp"
+#include "tanglebin/model/axis/links/choose_links.hpp"
 
 namespace tanglebin {
 namespace {
 
-using Eigen::Vector3d;
 using FeatureVector = Eigen::Matrix<double, link_features, 1>;
-
-/// Where the fragments of a model lie on the true tubes.
-class TrueLinks {
-public:
-  TrueLinks(const CaseData& data, const std::vector<std::size_t>& filtered,
-            const std::vector<Fragment>& fragments)
-      : fragments_(fragments) {
-    for (const Tube& tube : data.tubes) lines_.emplace(tube.id, CentreLine(tube));
-    const std::vector<std::int32_t> labels = truth_labels(data.cloud, data.cloud_file);
-    for (const Fragment& fragment : fragments_) {
-      std::map<std::int32_t, int> counts;
-      for (const std::size_t point : fragment.points) ++counts[labels[filtered[point]]];
-      tubes_.push_back(
-          std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; })->first);
-      const Vector3d& middle = fragment.nodes[fragment.nodes.size() / 2];
-      const bool is_on_a_tube = tubes_.back() > bin_label;
-      middles_.push_back(is_on_a_tube ? lines_.at(tubes_.back()).nearest(middle).place : Place{});
-    }
-  }
-
-  bool has(const Link& link) const {
-    const std::size_t from = link.fragment;
-    const std::size_t to = link.to.fragment;
-    if (tubes_[from] <= bin_label || tubes_[from] != tubes_[to]) return false;
-    const CentreLine& line = lines_.at(tubes_[from]);
-    if (!leads(line, fragments_[from].ends[link.end], from, to)) return false;
-    const bool is_met = link.kind == LinkKind::junction
-                            ? is_as_near_as_it_seems(line, link)
-                            : leads(line, fragments_[to].ends[*link.to.end], to, from);
-    return is_met && is_nothing_between(line, from, to);
-  }
-
-private:
-  // True if the direction out of a fragment's end leads along the tube to another fragment.
-  bool leads(const CentreLine& line, const FragmentEnd& end, std::size_t from, std::size_t to) const {
-    constexpr double outward = 0.004;  // m, enough to distinguish the two ends of the shortest fragment
-    const Place place = line.nearest(fragments_[from].nodes[end.node] + outward * end.outward).place;
-    return line.way(place, middles_[to]) < line.way(middles_[from], middles_[to]);
-  }
-
-  // True if the tube leads directly from the end to the junction, not by way of another one.
-  bool is_as_near_as_it_seems(const CentreLine& line, const Link& link) const {
-    constexpr double stretch = 1.3;  // a bent path is longer than the gap by up to this factor ...
-    constexpr double slack = 0.005;  // ... plus this many m
-    const Place end = line.nearest(fragments_[link.fragment].ends[link.end].position).place;
-    const Place junction = line.nearest(link.to.position).place;
-    return line.way(end, junction) <= stretch * link.gap + slack;
-  }
-
-  bool is_nothing_between(const CentreLine& line, std::size_t from, std::size_t to) const {
-    constexpr double rounding = 0.0002;  // m
-    const double way = line.way(middles_[from], middles_[to]);
-    for (std::size_t other = 0; other < fragments_.size(); ++other) {
-      if (other == from || other == to || tubes_[other] != tubes_[from]) continue;
-      const Place& place = middles_[other];
-      if (line.way(middles_[from], place) + line.way(place, middles_[to]) < way + rounding) return false;
-    }
-    return true;
-  }
-
-  const std::vector<Fragment>& fragments_;
-  std::map<std::int32_t, CentreLine> lines_;
-  std::vector<std::int32_t> tubes_;  // for each fragment, the true label of most of its points
-  std::vector<Place> middles_;       // of each fragment on its tube; unused if it is on none
-};
 
 // The weights of all kinds, one after the other.
 constexpr std::size_t parameters = link_kinds.size() * link_features;
@@ -157,25 +88,28 @@ bool is_small(const LinkVector& step) {
   return step.cwiseAbs().maxCoeff() < small;
 }
 
+// Of the weights that are marked with 1; the others do not change.
+Likelihood likelihood_of(const std::vector<EndExample>& ends, const LinkVector& weights,
+                         const LinkVector& free) {
+  Likelihood likelihood(ends, weights);
+  likelihood.slope.array() *= free.array();
+  likelihood.curvature.array() *= (free * free.transpose()).array();
+  likelihood.curvature.diagonal() += LinkVector::Ones() - free;
+  return likelihood;
+}
+
 // The likeliest weights, of which those are free that are marked with 1; the others are 0.
 LinkVector likeliest(const std::vector<EndExample>& ends, const LinkVector& free) {
   constexpr int steps_max = 1000;
-  const auto likelihood_of = [&](const LinkVector& weights) {
-    Likelihood likelihood(ends, weights);
-    likelihood.slope.array() *= free.array();
-    likelihood.curvature.array() *= (free * free.transpose()).array();
-    likelihood.curvature.diagonal() += LinkVector::Ones() - free;
-    return likelihood;
-  };
   LinkVector weights = LinkVector::Zero();
-  Likelihood likelihood = likelihood_of(weights);
+  Likelihood likelihood = likelihood_of(ends, weights, free);
   for (int i = 0; i < steps_max; ++i) {
     // Newton's step, shortened so that it does not overshoot.
     LinkVector step = likelihood.curvature.ldlt().solve(likelihood.slope);
-    Likelihood next = likelihood_of(weights + step);
+    Likelihood next = likelihood_of(ends, weights + step, free);
     while (next.value < likelihood.value && !is_small(step)) {
       step /= 2;
-      next = likelihood_of(weights + step);
+      next = likelihood_of(ends, weights + step, free);
     }
     weights += step;
     likelihood = next;
@@ -184,48 +118,103 @@ LinkVector likeliest(const std::vector<EndExample>& ends, const LinkVector& free
   return weights;
 }
 
+constexpr Eigen::Index gap_feature = 2;
+
+// The weights that are learned, marked with 1: not that of the gap, where longer gaps would be likelier.
+LinkVector learned_ones(const std::vector<EndExample>& ends) {
+  LinkVector free = LinkVector::Ones();
+  const LinkVector weights = likeliest(ends, free);
+  for (const LinkKind kind : link_kinds) {
+    if (of_kind(weights, kind)[gap_feature] > 0) free[first_of(kind) + gap_feature] = 0;
+  }
+  return free;
+}
+
+LinkWeights as_weights(const LinkVector& vector) {
+  LinkWeights weights;
+  for (const LinkKind kind : link_kinds) std::ranges::copy(of_kind(vector, kind), weights.of(kind).begin());
+  return weights;
+}
+
+// The sum of the features of the links that are chosen among these, heaviest first. None for trees: their
+// choice is greedy, so its mistakes say little of the weights.
+LinkVector features_of_chosen(const LinkScene& scene, const std::vector<Link>& links,
+                              const LinkSettings& settings) {
+  LinkVector sum = LinkVector::Zero();
+  if (scene.kind.branches()) return sum;
+  for (const std::size_t i : choose_links(scene.fragments, links, scene.kind, settings, scene.seen).links) {
+    const Link& link = links[i];
+    of_kind(sum, link.kind) += Eigen::Map<const FeatureVector>(link.features.data());
+  }
+  return sum;
+}
+
+// Of the true links, as many as can be chosen together.
+LinkVector features_of_true(const LinkScene& scene) {
+  constexpr double certain = 1000;
+  std::vector<Link> links;
+  for (std::size_t i = 0; i < scene.links.size(); ++i) {
+    if (!scene.is_true[i]) continue;
+    links.push_back(scene.links[i]);
+    links.back().weight = certain;
+  }
+  return features_of_chosen(scene, links, {});
+}
+
+// Moves the weights until the links that are chosen have, in sum over the scenes, the features of the true
+// ones: the structured perceptron, with the steps of Newton's method, and the mean of the later weights.
+LinkVector moved_to_true_links(const std::vector<LinkScene>& scenes, const std::vector<EndExample>& ends,
+                               LinkVector weights, const LinkVector& free) {
+  constexpr int passes = 12;
+  constexpr int first_of_mean = 6;
+  const Eigen::LDLT<LinkMatrix> curvature = likelihood_of(ends, weights, free).curvature.ldlt();
+  LinkVector of_true = LinkVector::Zero();
+  for (const LinkScene& scene : scenes) of_true += features_of_true(scene);
+  LinkVector sum = LinkVector::Zero();
+  for (int pass = 0; pass < passes; ++pass) {
+    LinkSettings settings;
+    settings.weights = as_weights(weights);
+    LinkVector of_chosen = LinkVector::Zero();
+    for (const LinkScene& scene : scenes)
+      of_chosen += features_of_chosen(scene, weighed(scene.links, settings), settings);
+    weights += curvature.solve(free.cwiseProduct(of_true - of_chosen));
+    for (const LinkKind kind : link_kinds) {
+      double& of_gap = weights[first_of(kind) + gap_feature];
+      of_gap = std::min(of_gap, 0.0);
+    }
+    if (pass >= first_of_mean) sum += weights;
+  }
+  return sum / (passes - first_of_mean);
+}
+
 }  // namespace
 
-std::vector<EndExample> end_examples(const Dataset& dataset, const SeenCase& seen) {
-  const CaseData data = read_seen_case(dataset, seen);
-  AxisSettings settings;
-  constexpr double any = 1e9;
-  settings.link.chain_prior = settings.link.tree_prior = settings.link.junction_prior = any;
-  settings.fragment.sure_min = 0;  // any way of cutting the votes is an example
-  const KnownScene known = known_scene(recipe_seen(dataset, seen), seen.scene);
-  const AxisModel found = model_by_axes(data.cloud, known, 1, 0, settings);
+std::vector<EndExample> end_examples(const LinkScene& scene) {
   std::vector<EndExample> examples;
-  for (const AxisSteps& kind : found.kinds) {
-    const TrueLinks truth(data, found.model.filtered, kind.fragments);
-    std::vector<std::size_t> first_end;
-    for (const Fragment& fragment : kind.fragments) {
-      first_end.push_back(examples.size());
-      examples.resize(examples.size() + fragment.ends.size());
-    }
-    for (const Link& link : kind.links) {
-      const LinkExample example{link.kind, link.features, truth.has(link)};
-      examples[first_end[link.fragment] + link.end].push_back(example);
-      if (link.kind != LinkKind::junction)
-        examples[first_end[link.to.fragment] + *link.to.end].push_back(example);
-    }
+  std::vector<std::size_t> first_end;
+  for (const Fragment& fragment : scene.fragments) {
+    first_end.push_back(examples.size());
+    examples.resize(examples.size() + fragment.ends.size());
+  }
+  for (std::size_t i = 0; i < scene.links.size(); ++i) {
+    const Link& link = scene.links[i];
+    const LinkExample example{link.kind, link.features, scene.is_true[i]};
+    examples[first_end[link.fragment] + link.end].push_back(example);
+    if (link.kind != LinkKind::junction)
+      examples[first_end[link.to.fragment] + *link.to.end].push_back(example);
   }
   return examples;
 }
 
-LinkWeights learn_weights(const std::vector<EndExample>& ends) {
-  constexpr Eigen::Index gap = 2;
-  LinkVector free = LinkVector::Ones();
-  LinkVector weights = likeliest(ends, free);
-  for (const LinkKind kind : link_kinds) free[first_of(kind) + gap] = of_kind(weights, kind)[gap] > 0 ? 0 : 1;
-  if (free != LinkVector::Ones()) weights = likeliest(ends, free);
-  const auto learned = [&](LinkKind kind) {
-    LinkFeatures result;
-    std::ranges::copy(of_kind(weights, kind), result.begin());
-    return result;
-  };
-  return {.chain_ends = learned(LinkKind::chain_ends),
-          .tree_ends = learned(LinkKind::tree_ends),
-          .junction = learned(LinkKind::junction)};
+LinkWeights likeliest_weights(const std::vector<EndExample>& ends) {
+  return as_weights(likeliest(ends, learned_ones(ends)));
+}
+
+LinkWeights learn_weights(const std::vector<LinkScene>& scenes) {
+  std::vector<EndExample> ends;
+  for (const LinkScene& scene : scenes) std::ranges::copy(end_examples(scene), std::back_inserter(ends));
+  const LinkVector free = learned_ones(ends);
+  return as_weights(moved_to_true_links(scenes, ends, likeliest(ends, free), free));
 }
 
 }  // namespace tanglebin

@@ -23,20 +23,32 @@ RangeImage::RangeImage(const std::vector<Eigen::Vector3f>& points, const Camera&
                              static_cast<std::size_t>(column)];
     nearest = std::min(nearest, static_cast<float>(seen->depth));
   }
+  keep_measured_rows();
+}
+
+void RangeImage::keep_measured_rows() {
+  const auto is_measured = [](float depth) { return std::isfinite(depth); };
+  const auto width = static_cast<std::ptrdiff_t>(camera_.width);
+  const auto first = std::ranges::find_if(depths_, is_measured);
+  const auto last = std::find_if(depths_.rbegin(), depths_.rend(), is_measured).base();
+  first_row_ = (first - depths_.begin()) / width;
+  end_row_ = first == depths_.end() ? first_row_ : (last - depths_.begin() + width - 1) / width;
+  depths_ = std::vector<float>(depths_.begin() + first_row_ * width, depths_.begin() + end_row_ * width);
 }
 
 // Compared as doubles: the projection of a point beside a near camera may be a number that no integer holds.
 double RangeImage::nearest_in(const Eigen::Vector2d& middle, double reach) const {
-  const auto inside = [](double value, int size) {
-    return static_cast<std::ptrdiff_t>(std::clamp(value, 0.0, static_cast<double>(size)));
+  const auto between = [](double value, std::ptrdiff_t first, std::ptrdiff_t end) {
+    return static_cast<std::ptrdiff_t>(
+        std::clamp(value, static_cast<double>(first), static_cast<double>(end)));
   };
-  const auto left = inside(std::round(middle.x()) - reach, camera_.width);
-  const auto right = inside(std::round(middle.x()) + reach + 1, camera_.width);  // one past the last
-  const auto top = inside(std::round(middle.y()) - reach, camera_.height);
-  const auto bottom = inside(std::round(middle.y()) + reach + 1, camera_.height);
+  const auto left = between(std::round(middle.x()) - reach, 0, camera_.width);
+  const auto right = between(std::round(middle.x()) + reach + 1, 0, camera_.width);  // one past the last
+  const auto top = between(std::round(middle.y()) - reach, first_row_, end_row_);
+  const auto bottom = between(std::round(middle.y()) + reach + 1, first_row_, end_row_);
   float nearest = std::numeric_limits<float>::infinity();
   for (auto v = top; v < bottom; ++v) {
-    const auto row = depths_.begin() + v * camera_.width;
+    const auto row = depths_.begin() + (v - first_row_) * camera_.width;
     for (auto depth = row + left; depth < row + right; ++depth) nearest = std::min(nearest, *depth);
   }
   return nearest;
@@ -50,11 +62,14 @@ bool RangeImage::hides(const Eigen::Vector3d& first, const Eigen::Vector3d& seco
   return nearest_in(middle, radius) < std::max(depth_of(camera_, first), depth_of(camera_, second));
 }
 
-bool RangeImage::shows_empty(const Eigen::Vector3d& axis, double radius) const {
-  const auto is_in = [&](const Eigen::AlignedBox3d& part) {
+bool RangeImage::is_solid(const Eigen::Vector3d& axis, double radius) const {
+  return std::ranges::any_of(solid_, [&](const Eigen::AlignedBox3d& part) {
     return part.squaredExteriorDistance(axis) < radius * radius / 4;
-  };
-  if (std::ranges::any_of(solid_, is_in)) return true;
+  });
+}
+
+bool RangeImage::shows_empty(const Eigen::Vector3d& axis, double radius) const {
+  if (is_solid(axis, radius)) return true;
   const std::optional<Eigen::Vector2d> image = project(camera_, axis);
   if (!image) return false;
   const double depth = depth_of(camera_, axis);

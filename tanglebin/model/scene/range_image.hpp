@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <vector>
 
 #include "tanglebin/geometry/camera.hpp"
@@ -24,16 +25,22 @@ public:
   /// is within half a radius of what is solid.
   bool shows_empty(const Eigen::Vector3d& axis, double radius) const;
 
+  /// True if the axis of a tube of this radius (m) is within half a radius of what is solid.
+  bool is_solid(const Eigen::Vector3d& axis, double radius) const;
+
   /// True if a ball of this radius (m) around the point is wholly in the camera's view.
   bool covers(const Eigen::Vector3d& point, double radius) const;
 
 private:
+  void keep_measured_rows();
   // The smallest depth within `reach` pixels of a place in the image, ∞ if there is none. m
   double nearest_in(const Eigen::Vector2d& middle, double reach) const;
 
   Camera camera_;
   std::vector<Eigen::AlignedBox3d> solid_;
-  std::vector<float> depths_;  ///< m, of the nearest point, row by row; ∞ where there is none
+  std::ptrdiff_t first_row_ = 0;  ///< in which something was measured
+  std::ptrdiff_t end_row_ = 0;    ///< one past the last of these
+  std::vector<float> depths_;     ///< m, of the nearest point, row by row; ∞ where there is none
 };
 
 }  // namespace tanglebin

@@ -14,7 +14,7 @@ struct FragmentEnd {
   std::size_t node;          ///< index into Fragment::nodes
   Eigen::Vector3d position;  ///< m
   Eigen::Vector3d outward;   ///< unit, along the centre line
-  double hidden = 0;         ///< m, how far its tube may go on unseen, straight ahead (look_beyond_ends())
+  double hidden = 0;         ///< m, how far its tube may go on unseen (look_beyond_ends())
 };
 
 /// A piece of a tube that is visible without a break.

@@ -46,8 +46,8 @@ struct Candidates {
 };
 
 // The cost of what a part of a chain lacks, more than can be hidden beyond its ends. It may have been
-// misjudged that an end is free, so the cost has a limit. Hidden is what lies straight ahead; what trees and
-// bent chains lack is a part of the cost of their shape.
+// misjudged that an end is free, so the cost has a limit. What trees and bent chains lack is a part of the
+// cost of their shape.
 double cost_of_length(const Candidates& candidates, const Part& chain) {
   constexpr double cost_max = 10;
   if (candidates.kind.branches() || candidates.shapes.are_bent()) return 0;

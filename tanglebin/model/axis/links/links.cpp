@@ -117,6 +117,11 @@ double weight_of(const Link& link, const LinkSettings& settings) {
                                                                                  link.features.begin(), 0.0);
 }
 
+std::vector<Link> heaviest_first(std::vector<Link> links) {
+  std::ranges::stable_sort(links, std::greater<>(), &Link::weight);
+  return links;
+}
+
 // The cubic Hermite curve from one end to the other, at t in [0, 1].
 Vector3d on_curve(const FragmentEnd& first, const FragmentEnd& second, double t) {
   const double gap = (second.position - first.position).norm();
@@ -200,10 +205,7 @@ public:
     }
   }
 
-  std::vector<Link> found() {
-    std::ranges::stable_sort(links_, std::greater<>(), &Link::weight);
-    return std::move(links_);
-  }
+  std::vector<Link> found() { return heaviest_first(std::move(links_)); }
 
 private:
   bool may_span(double gap, const Fragment& first, const Fragment& second) const {
@@ -269,6 +271,12 @@ private:
 
 double length_max(double length, const LinkSettings& settings) {
   return length * (1 + settings.length_tolerance);
+}
+
+std::vector<Link> weighed(std::vector<Link> links, const LinkSettings& settings) {
+  for (Link& link : links) link.weight = weight_of(link, settings);
+  std::erase_if(links, [](const Link& link) { return link.weight <= 0; });
+  return heaviest_first(std::move(links));
 }
 
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,

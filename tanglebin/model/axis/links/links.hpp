@@ -45,4 +45,8 @@ std::vector<Link> find_links(const std::vector<Fragment>& fragments, const Range
                              const TubeKind& kind, const LinkSettings& settings,
                              const std::vector<Ball>& others = {});
 
+/// The same links with the weights that these settings give them, heaviest first; without those that are
+/// likelier not to be true.
+std::vector<Link> weighed(std::vector<Link> links, const LinkSettings& settings);
+
 }  // namespace tanglebin

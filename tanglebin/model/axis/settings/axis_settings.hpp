@@ -71,7 +71,7 @@ struct LinkSettings {
   double missing_unit = 4.0;
   // The cost of what a chain lacks though it should have been seen, in radii per unit of log odds.
   double unseen_unit = 1.0;
-  double hidden_stretch = 2.0;      ///< a hidden way may be longer by this factor than straight ahead
+  double hidden_stretch = 2.0;      ///< a hidden way may be longer by this factor than it looks
   double strangeness_max = 2.0;     ///< TubeShapes::strangeness() of a chain that costs nothing
   double strangeness_weight = 3.0;  ///< log odds that a unit above it costs
   double bent_weight = 10.0;        ///< the same where the whole chains of the scan are bent

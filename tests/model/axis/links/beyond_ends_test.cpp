@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "tanglebin/base/constants.hpp"
 #include "tests/model/axis/fragments/straight_fragment.hpp"
 #include "tests/model/scene/scanned.hpp"
 
@@ -32,6 +35,32 @@ TEST(BeyondEnds, ATubeAcrossHidesWhatIsUnderIt) {
   const double hidden = hidden_beyond_end(test::scanned({across}));
   EXPECT_GT(hidden, 1 * radius);
   EXPECT_LT(hidden, 5 * radius);
+}
+
+// How far a tube may go on beyond an end at the origin, in radii, where nothing was measured and there are
+// walls at x > 10 and at y > 20 radii. Its direction is turned so far from the first wall's normal.
+double hidden_before_walls(double turn_deg) {
+  const double r = radius;
+  const double turn = turn_deg * degree;
+  const std::vector<Eigen::AlignedBox3d> walls = {
+      {Eigen::Vector3d(10 * r, -1, 0), Eigen::Vector3d(20 * r, 1, 1)},
+      {Eigen::Vector3d(-1, 20 * r, 0), Eigen::Vector3d(1, 30 * r, 1)}};
+  const Eigen::Vector3d end(0, 0, 5 * r);
+  std::vector<Fragment> fragments = {
+      straight_fragment(end - 0.1 * Eigen::Vector3d(std::cos(turn), std::sin(turn), 0), end)};
+  look_beyond_ends(fragments, r, RangeImage({}, test::paper_scene().camera, walls));
+  return fragments.front().ends[1].hidden / r;
+}
+
+TEST(BeyondEnds, AWallEndsATubeThatMeetsItHeadOn) {
+  EXPECT_NEAR(hidden_before_walls(0), 8, 1.2);
+  EXPECT_NEAR(hidden_before_walls(25), 8.9, 1.2);
+}
+
+// To the first wall, then along it to the second one, in the corner.
+TEST(BeyondEnds, ATubeThatMeetsAWallAslantGoesOnAlongIt) {
+  const double to_wall = 9.5 / std::cos(45 * degree);
+  EXPECT_NEAR(hidden_before_walls(45), to_wall + 10 - 1.6, 1.5);
 }
 
 TEST(UnseenLength, IsWhatNeitherWasSeenNorMayBeHidden) {

@@ -138,6 +138,9 @@ TEST(ChooseLinks, MakeNoBentTubeOfWhichTheRestWouldBeSeen) {
   std::vector<Fragment> pieces = {straight_fragment({-0.1, 0, 0.05}, {-0.02, 0, 0.05}),
                                   straight_fragment({0, 0.02, 0.05}, {0, 0.03, 0.05}),
                                   straight_fragment({0, 0, 0.075}, {0, 0, 0.085})};
+  for (Fragment& piece : pieces) {
+    for (FragmentEnd& end : piece.ends) end.hidden = 0.02;
+  }
   for (const double y : {-0.4, -0.3, -0.2}) pieces.push_back(bent_fragment({0.3, y, 0.05}));
   TubeKind kind = chain_of(0.24);
   kind.radius = 0.006;

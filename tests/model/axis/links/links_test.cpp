@@ -44,6 +44,23 @@ TEST(Links, JoinEndsThatFaceEachOtherAndSayHowFarApartTheyAre) {
                                          testing::DoubleNear(0, 1e-6), testing::DoubleNear(0, 1e-6), 2, 0));
 }
 
+// Two pieces in a row, and one beyond a wider gap.
+TEST(Links, AreWeighedAgainByOtherWeights) {
+  const std::vector<Link> links = links_of(
+      {straight_fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}), straight_fragment({0, 0, 0.05}, {0.1, 0, 0.05}),
+       straight_fragment({0.2, 0, 0.05}, {0.25, 0, 0.05})},
+      {});
+  ASSERT_THAT(links, SizeIs(testing::Ge(2)));
+  const std::vector<Link> same = weighed({links.rbegin(), links.rend()}, {});
+  ASSERT_THAT(same, SizeIs(links.size()));
+  for (std::size_t i = 0; i < links.size(); ++i) EXPECT_EQ(same[i].weight, links[i].weight);
+  LinkSettings near_only;
+  near_only.chain_prior = 0;
+  near_only.weights.chain_ends = {5, 0, -1};  // above 0 where the gap is less than 5 radii
+  for (const Link& link : weighed(links, near_only)) EXPECT_LT(link.gap, 5 * 0.0125);
+  EXPECT_THAT(weighed(links, near_only), testing::Not(IsEmpty()));
+}
+
 TEST(Links, AreNotWhereTheSensorSawThatThereIsNothing) {
   const std::vector<Fragment> fragments = {straight_fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
                                            straight_fragment({0.05, 0, 0.05}, {0.2, 0, 0.05})};
