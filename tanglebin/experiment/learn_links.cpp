@@ -120,14 +120,18 @@ LinkVector likeliest(const std::vector<EndExample>& ends, const LinkVector& free
 
 constexpr Eigen::Index gap_feature = 2;
 
-// The weights that are learned, marked with 1: not that of the gap, where longer gaps would be likelier.
-LinkVector learned_ones(const std::vector<EndExample>& ends) {
+struct LearnedVector {
+  LinkVector weights;
+  LinkVector free;  // 1 for those that were learned; 0 for that of a gap that would make longer ones likelier
+};
+
+LearnedVector learned_from(const std::vector<EndExample>& ends) {
   LinkVector free = LinkVector::Ones();
   const LinkVector weights = likeliest(ends, free);
   for (const LinkKind kind : link_kinds) {
     if (of_kind(weights, kind)[gap_feature] > 0) free[first_of(kind) + gap_feature] = 0;
   }
-  return free;
+  return {free == LinkVector::Ones() ? weights : likeliest(ends, free), free};
 }
 
 LinkWeights as_weights(const LinkVector& vector) {
@@ -164,10 +168,12 @@ LinkVector features_of_true(const LinkScene& scene) {
 // Moves the weights until the links that are chosen have, in sum over the scenes, the features of the true
 // ones: the structured perceptron, with the steps of Newton's method, and the mean of the later weights.
 LinkVector moved_to_true_links(const std::vector<LinkScene>& scenes, const std::vector<EndExample>& ends,
-                               LinkVector weights, const LinkVector& free) {
+                               const LearnedVector& start) {
   constexpr int passes = 12;
   constexpr int first_of_mean = 6;
-  const Eigen::LDLT<LinkMatrix> curvature = likelihood_of(ends, weights, free).curvature.ldlt();
+  const auto& [first, free] = start;
+  const Eigen::LDLT<LinkMatrix> curvature = likelihood_of(ends, first, free).curvature.ldlt();
+  LinkVector weights = first;
   LinkVector of_true = LinkVector::Zero();
   for (const LinkScene& scene : scenes) of_true += features_of_true(scene);
   LinkVector sum = LinkVector::Zero();
@@ -207,14 +213,13 @@ std::vector<EndExample> end_examples(const LinkScene& scene) {
 }
 
 LinkWeights likeliest_weights(const std::vector<EndExample>& ends) {
-  return as_weights(likeliest(ends, learned_ones(ends)));
+  return as_weights(learned_from(ends).weights);
 }
 
 LinkWeights learn_weights(const std::vector<LinkScene>& scenes) {
   std::vector<EndExample> ends;
   for (const LinkScene& scene : scenes) std::ranges::copy(end_examples(scene), std::back_inserter(ends));
-  const LinkVector free = learned_ones(ends);
-  return as_weights(moved_to_true_links(scenes, ends, likeliest(ends, free), free));
+  return as_weights(moved_to_true_links(scenes, ends, learned_from(ends)));
 }
 
 }  // namespace tanglebin

@@ -94,14 +94,16 @@ std::vector<LinkScene> link_scenes(const Dataset& dataset, const SeenCase& seen)
   const CaseData data = read_seen_case(dataset, seen);
   const KnownScene known = known_scene(recipe_seen(dataset, seen), seen.scene);
   AxisModel found = model_by_axes(data.cloud, known, 1, 0, settings_to_learn_with());
+  RangeImage seen_image(data.cloud.points, known.camera, solid_parts(known.support));
+  seen_image.keep_measured_rows();  // learning holds hundreds of them
   std::vector<LinkScene> scenes;
   for (std::size_t i = 0; i < found.kinds.size(); ++i) {
     AxisSteps& steps = found.kinds[i];
     const TrueLinks truth(data, found.model.filtered, steps.fragments);
     std::vector<bool> is_true;
     for (const Link& link : steps.links) is_true.push_back(truth.has(link));
-    scenes.push_back({known.kinds[i], std::move(steps.fragments), std::move(steps.links), std::move(is_true),
-                      RangeImage(data.cloud.points, known.camera, solid_parts(known.support))});
+    scenes.push_back(
+        {known.kinds[i], std::move(steps.fragments), std::move(steps.links), std::move(is_true), seen_image});
   }
   return scenes;
 }

@@ -14,8 +14,9 @@ namespace tanglebin {
 
 namespace {
 
-bool means_several_places(const InputError& error) {
-  return error.place().field == "support.position";
+// Whether another wall may do better: not where several bins are seen, or the cloud is no view of one.
+bool is_not_located(const InputError& error) {
+  return error.place().field == "support";
 }
 
 std::optional<Located> located_unless_refused(const PointCloud& cloud, const Support& bin,
@@ -23,7 +24,7 @@ std::optional<Located> located_unless_refused(const PointCloud& cloud, const Sup
   try {
     return locate(cloud, bin, camera);
   } catch (const InputError& error) {
-    if (means_several_places(error)) throw;
+    if (!is_not_located(error)) throw;
     return std::nullopt;
   }
 }
@@ -40,7 +41,7 @@ Located locate_with_assumed_wall(const PointCloud& cloud, Support bin, const Cam
       if (located.is_wall_measured) return located;
       if (!first) first = std::move(located);
     } catch (const InputError& error) {
-      if (error.place().field != "support") throw;
+      if (!is_not_located(error)) throw;
       if (!refusal) refusal = error;
     }
   }

@@ -84,9 +84,10 @@ PartPlane plane_of_part(const Bin& bin, std::size_t part) {
   return {outwards, half + bin.wall};
 }
 
-double least_distance(const Bin& bin) {
+bool are_beside(const Bin& bin, const Eigen::Isometry3d& first, const Eigen::Isometry3d& second) {
   constexpr double inaccuracy = 0.9;
-  return inaccuracy * std::min(bin.length, bin.width);
+  const double distance = (first.translation() - second.translation()).norm();
+  return distance > inaccuracy * std::min(bin.length, bin.width);
 }
 
 std::optional<PartHit> first_hit(const std::array<AlignedBox3d, 5>& boxes, const Bin& bin, const Ray& ray) {

@@ -40,8 +40,8 @@ struct PartPlane {
 };
 PartPlane plane_of_part(const Bin& bin, std::size_t part);
 
-/// The middles of two bins that stand side by side are at least so far apart, m.
-double least_distance(const Bin& bin);
+/// Whether two poses of a bin are those of two bins side by side: where a bin stands, another cannot.
+bool are_beside(const Bin& bin, const Eigen::Isometry3d& first, const Eigen::Isometry3d& second);
 
 /// Where a ray first meets a bin.
 struct PartHit {

@@ -186,11 +186,6 @@ double reach_of(const Plan& plan) {
   return std::min(reach, farthest);
 }
 
-// Where a bin stands, another cannot.
-bool are_beside(const Bin& bin, const Isometry3d& first, const Isometry3d& second) {
-  return (first.translation() - second.translation()).norm() > least_distance(bin);
-}
-
 // A bin that is turned by 180° is the same.
 std::vector<Placed> places_on(const Plan& plan, const Bin& bin) {
   constexpr int yaws = 120;

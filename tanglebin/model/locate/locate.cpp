@@ -452,7 +452,7 @@ double share_of_structure(const Candidate& candidate) {
 // least of itself.
 bool fits_as_well(const Bin& bin, const Candidate& rival, const Candidate& best) {
   constexpr double as_good = 0.6;
-  if (difference(bin, best.pose, rival.pose).distance > least_distance(bin))
+  if (are_beside(bin, best.pose, rival.pose))
     return share_of_structure(rival) >= as_good * share_of_structure(best);
   return rival.score >= as_good * best.score && advantage(rival, best) >= as_good * advantage(best, rival);
 }
@@ -534,8 +534,8 @@ Fitted one_of(std::vector<Fitted> places, const Bin& bin, const Isometry3d& gues
   if (places.size() == 1) return places.front();
   const Fitted best = places.front();
   for (std::size_t i = 1; i < places.size(); ++i) {
+    if (are_beside(bin, best.fit.pose, places[i].fit.pose)) continue;
     const auto [distance, angle] = difference(bin, best.fit.pose, places[i].fit.pose);
-    if (distance > least_distance(bin)) continue;
     refuse(fmt::format("two poses fit equally well; one is {:.0f} mm and {:.0f}° from the other",
                        1e3 * distance, angle / degree));
   }

@@ -13,6 +13,7 @@ RangeImage::RangeImage(const std::vector<Eigen::Vector3f>& points, const Camera&
                        std::vector<Eigen::AlignedBox3d> solid)
     : camera_(camera),
       solid_(std::move(solid)),
+      end_row_(camera.height),
       depths_(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
               std::numeric_limits<float>::infinity()) {
   for (const Eigen::Vector3f& point : points) {
@@ -23,7 +24,6 @@ RangeImage::RangeImage(const std::vector<Eigen::Vector3f>& points, const Camera&
                              static_cast<std::size_t>(column)];
     nearest = std::min(nearest, static_cast<float>(seen->depth));
   }
-  keep_measured_rows();
 }
 
 void RangeImage::keep_measured_rows() {

@@ -31,15 +31,17 @@ public:
   /// True if a ball of this radius (m) around the point is wholly in the camera's view.
   bool covers(const Eigen::Vector3d& point, double radius) const;
 
-private:
+  /// Gives back the memory of the rows above and below all that was measured. Answers stay the same.
   void keep_measured_rows();
+
+private:
   // The smallest depth within `reach` pixels of a place in the image, ∞ if there is none. m
   double nearest_in(const Eigen::Vector2d& middle, double reach) const;
 
   Camera camera_;
   std::vector<Eigen::AlignedBox3d> solid_;
-  std::ptrdiff_t first_row_ = 0;  ///< in which something was measured
-  std::ptrdiff_t end_row_ = 0;    ///< one past the last of these
+  std::ptrdiff_t first_row_ = 0;  ///< that is kept
+  std::ptrdiff_t end_row_;        ///< one past the last of these
   std::vector<float> depths_;     ///< m, of the nearest point, row by row; ∞ where there is none
 };
 

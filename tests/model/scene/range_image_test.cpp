@@ -40,6 +40,24 @@ TEST(RangeImage, OfNothingHidesNothing) {
   EXPECT_FALSE(image.hides({-9, 0, 0.1}, {-9, 0, 0.2}, 3)) << "a middle outside of the image";
 }
 
+TEST(RangeImage, AnswersTheSameWithoutTheRowsThatMeasuredNothing) {
+  const RangeImage whole(cloud_of({{0, 0.05F, 0.5F}, {0.02F, -0.1F, 0.3F}}).points, small_camera());
+  RangeImage trimmed = whole;
+  trimmed.keep_measured_rows();
+  for (double x = -0.3; x < 0.3; x += 0.01) {
+    for (double y = -0.3; y < 0.3; y += 0.01) {
+      for (const double z : {0.1, 0.4}) {
+        const Vector3d place(x, y, z);
+        EXPECT_EQ(trimmed.hides(place, place, 3), whole.hides(place, place, 3)) << place.transpose();
+        EXPECT_EQ(trimmed.shows_empty(place, 0.0125), whole.shows_empty(place, 0.0125)) << place.transpose();
+      }
+    }
+  }
+  RangeImage nothing({}, small_camera());
+  nothing.keep_measured_rows();
+  EXPECT_FALSE(nothing.hides({0, 0, 0.1}, {0, 0, 0.1}, 50));
+}
+
 TEST(RangeImage, OfAPlaceBesideTheCameraShowsNothing) {
   const Camera camera = small_camera();
   const RangeImage image(cloud_of({{0, 0, 0.5F}}).points, camera);
