@@ -177,8 +177,8 @@ void for_each_parameter(Settings& settings, Visit visit) {
   visit({"axis.link.unseen_unit", "the same for what a chain lacks though it should have been seen",
          between(0.01, 1000), by_factors(0.2, 5)},
         settings.axis.link.unseen_unit);
-  visit({"axis.link.hidden_stretch", "a hidden way may be longer by this factor than it looks",
-         up_to(1000), by_steps(1, 6)},
+  visit({"axis.link.hidden_stretch", "a hidden way may be longer by this factor than it looks", up_to(1000),
+         by_steps(1, 6)},
         settings.axis.link.hidden_stretch);
   visit({"axis.link.strangeness_max",
          "how unlike the whole chains of the scan a chain may be, as a multiple of how unlike they are to "
