@@ -69,7 +69,8 @@ CentrePath centre_path(const Candidates& candidates, const std::vector<std::size
 // The cost of looking unlike the whole chains of the scan.
 double cost_of_looks(const Candidates& candidates, const CentrePath& chain) {
   constexpr double cost_max = 20;
-  const double strangeness = candidates.shapes.strangeness(chain) - candidates.settings.strangeness_max;
+  const double ordinary = candidates.settings.strangeness_max;
+  const double strangeness = candidates.shapes.strangeness(chain, ordinary) - ordinary;
   return std::clamp(candidates.settings.strangeness_weight * strangeness, 0.0, cost_max);
 }
 
@@ -146,9 +147,12 @@ public:
     if (first == second) return false;
     Part tube = joined(first, second, link);
     if (tube.length > candidates_->tube_length_max || tube.ends > candidates_->tube_ends_max) return false;
-    tube.cost = cost_of(tube, first, second, link);
     const auto& [from, to, weight] = candidates_->pairs[link];
-    const double gain = weight + parts_[first].cost + parts_[second].cost - tube.cost;
+    const double worth = weight + parts_[first].cost + parts_[second].cost;
+    tube.cost = cost_of_length(*candidates_, tube);
+    if (worth <= tube.cost) return false;  // whatever its shape costs
+    if (has_shape_costs(*candidates_)) tube.cost += cost_of_shape(tube, first, second, link);
+    const double gain = worth - tube.cost;
     if (gain <= 0) return false;
     tubes_.union_set(first, second);
     parts_[tubes_.find_set(first)] = tube;
@@ -203,11 +207,6 @@ private:
     const std::vector<Fragment>& fragments = candidates_->fragments;
     const double from = fragments[link.fragment].ends[link.end].hidden;
     return ends_taken(link.kind) == 1 ? from : from + fragments[link.to.fragment].ends[*link.to.end].hidden;
-  }
-
-  double cost_of(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {
-    const double of_length = cost_of_length(*candidates_, tube);
-    return has_shape_costs(*candidates_) ? of_length + cost_of_shape(tube, first, second, link) : of_length;
   }
 
   double cost_of_shape(const Part& tube, std::size_t first, std::size_t second, std::size_t link) {

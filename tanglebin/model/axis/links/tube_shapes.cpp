@@ -65,20 +65,22 @@ double path_length(const CentrePath& path) {
 struct TubeShapes::Sample {
   double length;                // m, of the part
   CentrePath places;            // m
-  std::vector<double> ways;     // m
+  std::vector<int> steps;       // along the part to each place
   std::vector<float> distance;  // m, of each pair, in the order of its loops
 
   // Nodes that are seen, since what a link bridges may be bent.
-  explicit Sample(const CentrePath& part) {
+  Sample(const CentrePath& part, double step_length) {
     constexpr std::size_t wanted = 9;
     const std::vector<double> along = ways_along(part);
     length = along.back();
     std::size_t node = 0;
+    double last = -1;
     for (std::size_t i = 0; i < wanted; ++i) {
       const double way = length * static_cast<double>(i) / (wanted - 1);
       while (node + 1 < part.size() && std::abs(along[node + 1] - way) <= std::abs(along[node] - way)) ++node;
-      if (!ways.empty() && along[node] <= ways.back()) continue;
-      ways.push_back(along[node]);
+      if (along[node] <= last) continue;
+      last = along[node];
+      steps.push_back(static_cast<int>(std::lround(last / step_length)));
       places.push_back(part[node]);
     }
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -87,11 +89,13 @@ struct TubeShapes::Sample {
     }
   }
 
-  // The sum of the squared differences, m², between its distances and those of a tube's places.
-  float squares(const Distances& tube, const Matches& matches) const {
+  // The sum of the squared differences, m², between its distances and those of a tube's places. Ends early
+  // where it reaches `enough`.
+  float squares(const Distances& tube, const Matches& matches,
+                float enough = std::numeric_limits<float>::infinity()) const {
     float sum = 0;
     std::size_t pair = 0;
-    for (std::size_t i = 0; i < matches.size(); ++i) {
+    for (std::size_t i = 0; i < matches.size() && sum < enough; ++i) {
       for (std::size_t j = 0; j < i; ++j, ++pair) {
         const float difference = distance[pair] - tube(matches[i], matches[j]);
         sum += difference * difference;
@@ -143,13 +147,14 @@ TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius, std:
   for (const CentrePath& tube : tubes) all.push_back(distances_along(tube));
   std::vector<double> misfits;
   for (std::size_t i = 0; i < tubes.size(); ++i) {
-    const Sample tube(tubes[i]);
-    double least = std::numeric_limits<double>::infinity();
+    const Sample tube(tubes[i], step_length());
+    float least = std::numeric_limits<float>::infinity();
     for (std::size_t j = 0; j < tubes.size(); ++j) {
-      if (j != i) least = std::min(least, misfit(tube, all[j]));
+      if (j != i) least = least_squares(tube, all[j], least);
     }
-    if (least >= alike * radius) continue;
-    misfits.push_back(least);
+    const double misfit = tube.root_mean(least);
+    if (misfit >= alike * radius) continue;
+    misfits.push_back(misfit);
     tubes_.push_back(all[i]);
   }
   if (tubes_.size() < enough || 2 * tubes_.size() < tubes.size()) {
@@ -162,12 +167,16 @@ TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius, std:
   are_bent_ = median(std::move(bends)) > bent * spread_;
 }
 
-double TubeShapes::strangeness(const CentrePath& part) const {
+double TubeShapes::strangeness(const CentrePath& part, double ordinary) const {
   if (tubes_.empty() || part.size() < 3) return 0;
-  const Sample sample(part);
-  double least = std::numeric_limits<double>::infinity();
-  for (const Distances& tube : tubes_) least = std::min(least, misfit(sample, tube));
-  return least / spread_;
+  const Sample sample(part, step_length());
+  double strangeness = std::numeric_limits<double>::infinity();
+  float least = std::numeric_limits<float>::infinity();
+  for (auto tube = tubes_.begin(); tube != tubes_.end() && strangeness > ordinary; ++tube) {
+    least = least_squares(sample, *tube, least);
+    strangeness = sample.root_mean(least) / spread_;
+  }
+  return strangeness;
 }
 
 TubeShapes::Distances TubeShapes::distances_along(const CentrePath& tube) const {
@@ -187,11 +196,11 @@ void TubeShapes::for_each_match(const Sample& part, const Distances& tube, const
   constexpr int shifts = 2;  // steps
   const int last = tube.last();
   const int room = std::max(last - static_cast<int>(part.length / step_length()), -2 * slack);
-  Matches matches(part.ways.size());
+  Matches matches(part.steps.size());
   for (const bool is_reversed : {false, true}) {
     for (int first = -slack; first <= room + slack; first += shifts) {
       for (std::size_t i = 0; i < matches.size(); ++i) {
-        const int place = first + static_cast<int>(std::lround(part.ways[i] / step_length()));
+        const int place = first + part.steps[i];
         matches[i] = std::clamp(is_reversed ? last - place : place, 0, last);
       }
       visit(matches);
@@ -199,13 +208,11 @@ void TubeShapes::for_each_match(const Sample& part, const Distances& tube, const
   }
 }
 
-// The root mean square difference, m, between the distances of the part's places and those of a tube's, where
-// the part fits best.
-double TubeShapes::misfit(const Sample& part, const Distances& tube) const {
-  float least = std::numeric_limits<float>::infinity();
+// Sample::squares() where the part fits best; `least` if it fits no better than that.
+float TubeShapes::least_squares(const Sample& part, const Distances& tube, float least) const {
   for_each_match(part, tube,
-                 [&](const Matches& matches) { least = std::min(least, part.squares(tube, matches)); });
-  return part.root_mean(least);
+                 [&](const Matches& matches) { least = std::min(least, part.squares(tube, matches, least)); });
+  return least;
 }
 
 // The same for a straight part as long as the tube.
@@ -274,7 +281,7 @@ void TubeShapes::slide(const Sample& part, Match& match) const {
 }
 
 void TubeShapes::lay_on(const CentrePath& part, const std::function<bool(const Laid&)>& visit) const {
-  const Sample sample(part);
+  const Sample sample(part, step_length());
   const std::vector<Isometry3d> turns = sample.turns(radius_);
   for (Match& match : best_matches(sample)) {
     slide(sample, match);

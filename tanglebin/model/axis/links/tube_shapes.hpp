@@ -34,8 +34,9 @@ public:
   bool are_bent() const { return are_bent_; }
 
   /// How unlike a part is to the most similar part of all known tubes, as a multiple of the median of how
-  /// unlike each known tube is to the most similar other one. 0 if nothing is known.
-  double strangeness(const CentrePath& part) const;
+  /// unlike each known tube is to the most similar other one. 0 if nothing is known. Where a known tube is
+  /// found that leaves no more than `ordinary`, it does not look for a more similar one.
+  double strangeness(const CentrePath& part, double ordinary = 0) const;
 
   /// A known tube, laid on a part.
   struct Laid {
@@ -77,7 +78,7 @@ private:
 
   double step_length() const { return step * radius_; }  // m
   Distances distances_along(const CentrePath& tube) const;
-  double misfit(const Sample& part, const Distances& tube) const;
+  float least_squares(const Sample& part, const Distances& tube, float least) const;
   double misfit_with_straight(const Distances& tube) const;
   template <typename Visit>
   void for_each_match(const Sample& part, const Distances& tube, const Visit& visit) const;
