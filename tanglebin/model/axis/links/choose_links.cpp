@@ -40,6 +40,7 @@ struct Candidates {
   int tube_ends_max = count_ends(kind.segments) + settings.ends_tolerance;
   std::vector<WeightedPair> pairs = {};  ///< the two ends of each link as vertices, and its weight
   std::size_t vertices = 0;
+  std::vector<std::vector<std::size_t>> links_of = {};  ///< for each fragment, those that have an end there
   std::vector<std::uint64_t> numbers = {};  ///< random, one per link; no two sets of links have the same sum
   std::vector<Part> alone = {};             ///< each fragment by itself
   TubeShapes shapes = {};                   ///< what chains look like
@@ -137,13 +138,14 @@ public:
         costs_(&costs),
         tubes_(candidates.fragments.size()),
         parts_(candidates.alone),
-        used_(candidates.vertices) {}
+        used_(candidates.vertices) {
+    std::iota(tubes_.begin(), tubes_.end(), std::size_t{0});
+  }
 
   /// Takes a link if its ends are free and the resulting tube is possible and likelier than its two parts.
   /// Returns true if it did.
   bool take(std::size_t link) {
-    const std::size_t first = tubes_.find_set(candidates_->links[link].fragment);
-    const std::size_t second = tubes_.find_set(candidates_->links[link].to.fragment);
+    const auto [first, second] = tubes_of(link);
     if (first == second) return false;
     Part tube = joined(first, second, link);
     if (tube.length > candidates_->tube_length_max || tube.ends > candidates_->tube_ends_max) return false;
@@ -152,12 +154,10 @@ public:
     tube.cost = cost_of_length(*candidates_, tube);
     if (worth <= tube.cost) return false;  // whatever its shape costs
     if (has_shape_costs(*candidates_)) tube.cost += cost_of_shape(tube, first, second, link);
-    const double gain = worth - tube.cost;
-    if (gain <= 0) return false;
-    tubes_.union_set(first, second);
-    parts_[tubes_.find_set(first)] = tube;
+    if (worth <= tube.cost) return false;
+    std::ranges::replace(tubes_, second, first);
+    parts_[first] = tube;
     used_[from] = used_[to] = 1;
-    weight_ += gain;
     taken_.push_back(link);
     return true;
   }
@@ -169,26 +169,58 @@ public:
     }
   }
 
-  /// Of the taken links, those outside the two tubes that `link` would join.
-  std::vector<std::size_t> without_tubes_of(std::size_t link, const std::vector<std::size_t>& taken) {
-    const std::size_t first = tubes_.find_set(candidates_->links[link].fragment);
-    const std::size_t second = tubes_.find_set(candidates_->links[link].to.fragment);
-    std::vector<std::size_t> others;
-    std::ranges::copy_if(taken, std::back_inserter(others), [&](std::size_t i) {
-      const std::size_t tube = tubes_.find_set(candidates_->links[i].fragment);
-      return tube != first && tube != second;
+  /// What was a tube, or two, before it was given up.
+  struct Released {
+    std::vector<std::size_t> fragments;
+    std::vector<std::size_t> links;  ///< heaviest first
+  };
+
+  /// Gives up the tubes that a link would join.
+  Released release_tubes_of(std::size_t link) {
+    const auto [first, second] = tubes_of(link);
+    const auto is_theirs = [&](std::size_t fragment) {
+      return tubes_[fragment] == first || tubes_[fragment] == second;
+    };
+    Released released;
+    std::erase_if(taken_, [&](std::size_t i) {
+      if (!is_theirs(candidates_->links[i].fragment)) return false;
+      released.links.push_back(i);
+      used_[candidates_->pairs[i].first] = used_[candidates_->pairs[i].second] = 0;
+      return true;
     });
-    return others;
+    std::ranges::sort(released.links);
+    for (std::size_t i = 0; i < tubes_.size(); ++i) {
+      if (is_theirs(i)) released.fragments.push_back(i);
+    }
+    for (const std::size_t i : released.fragments) {
+      tubes_[i] = i;
+      parts_[i] = candidates_->alone[i];
+    }
+    return released;
   }
 
-  const std::vector<std::size_t>& taken() const { return taken_; }
-  /// The sum of the links' weights, less the shape costs.
-  double weight() const { return weight_; }
-
-private:
   bool has_free_ends(std::size_t link) const {
     const WeightedPair& pair = candidates_->pairs[link];
     return (used_[pair.first] | used_[pair.second]) == 0;
+  }
+
+  const std::vector<std::size_t>& taken() const { return taken_; }
+
+  /// The sum of the links' weights, less the costs of the tubes: log odds.
+  double weight() const {
+    double sum = 0;
+    for (const std::size_t i : taken_) sum += candidates_->pairs[i].weight;
+    for (std::size_t i = 0; i < tubes_.size(); ++i) {
+      if (tubes_[i] == i) sum -= parts_[i].cost;
+    }
+    return sum;
+  }
+
+private:
+  // Each is represented by one of its fragments.
+  std::pair<std::size_t, std::size_t> tubes_of(std::size_t link) const {
+    const Link& its = candidates_->links[link];
+    return {tubes_[its.fragment], tubes_[its.to.fragment]};
   }
 
   Part joined(std::size_t first, std::size_t second, std::size_t link) const {
@@ -214,8 +246,7 @@ private:
     if (weighed != costs_->end()) return weighed->second;
     std::vector<std::size_t> fragments;
     for (std::size_t i = 0; i < candidates_->fragments.size(); ++i) {
-      const std::size_t part = tubes_.find_set(i);
-      if (part == first || part == second) fragments.push_back(i);
+      if (tubes_[i] == first || tubes_[i] == second) fragments.push_back(i);
     }
     std::vector<std::size_t> chosen = taken_;
     chosen.push_back(link);
@@ -225,48 +256,56 @@ private:
 
   const Candidates* candidates_;
   Costs* costs_;
-  boost::disjoint_sets_with_storage<> tubes_;
-  std::vector<Part> parts_;         // of the tube that each set represents
+  std::vector<std::size_t> tubes_;  // for each fragment, the one that represents its tube
+  std::vector<Part> parts_;         // for each fragment that represents a tube
   std::vector<std::uint8_t> used_;  // for each vertex; bytes are faster to read than bits
   std::vector<std::size_t> taken_;
-  double weight_ = 0;
 };
 
 // Keeps what it can of `kept`, then adds the heaviest of the other links.
 Selection completed(Selection selection, const std::vector<std::size_t>& kept,
-                    const std::vector<std::size_t>& all) {
+                    const std::vector<std::size_t>& others) {
   selection.take_possible(kept);
-  selection.take_possible(all);
+  selection.take_possible(others);
   return selection;
 }
 
-// Repeatedly moves to a heavier selection: one that contains a given link, whatever can be kept beside it,
-// and the heaviest of the others. A single link rarely repairs a tree made of parts of two, so this also
-// tries to rebuild both tubes that the link joins. A try looks at every link, so there is a limit to the
-// tries where there are many links: those between thousands of pieces of noise.
-Selection exchanged(const Selection& none, Selection best, const std::vector<std::size_t>& all,
-                    bool with_branches) {
+// The links of these fragments whose ends are free, heaviest first.
+std::vector<std::size_t> free_links_of(const std::vector<std::size_t>& fragments, const Selection& selection,
+                                       const Candidates& candidates) {
+  std::vector<std::size_t> free;
+  for (const std::size_t fragment : fragments) {
+    std::ranges::copy_if(candidates.links_of[fragment], std::back_inserter(free),
+                         [&](std::size_t link) { return selection.has_free_ends(link); });
+  }
+  std::ranges::sort(free);
+  return free;
+}
+
+// Repeatedly moves to a heavier selection: one that contains a given link, whatever can be kept of the tubes
+// that it joins, and the heaviest of the other links of their fragments. A single link rarely repairs a tree
+// made of parts of two, so this also tries to rebuild both from nothing. A try looks at every fragment, so
+// there is a limit to the tries where there are many: thousands of pieces of noise.
+Selection exchanged(const Candidates& candidates, Selection best, const std::vector<std::size_t>& all) {
   constexpr double rounding = 1e-9;
   constexpr std::size_t looks_max = 100'000'000;
-  std::size_t tries_left = looks_max / std::max<std::size_t>(all.size(), 1);
-  const auto heaviest_first = [](std::vector<std::size_t> links) {
-    std::ranges::sort(links);
-    return links;
-  };
-  std::vector<std::size_t> kept = heaviest_first(best.taken());
+  std::size_t tries_left = looks_max / std::max<std::size_t>(candidates.fragments.size(), 1);
   std::size_t in_vain = 0;  // links tried since the last exchange
+  double weight = best.weight();
   for (std::size_t i = 0; in_vain < all.size() && tries_left > 0; i = (i + 1) % all.size(), --tries_left) {
     ++in_vain;
-    Selection with_link = none;
+    Selection with_link = best;
+    const Selection::Released released = with_link.release_tubes_of(i);
     if (!with_link.take(i)) continue;
-    Selection other = completed(with_link, kept, all);
-    if (with_branches) {
-      Selection anew = completed(with_link, best.without_tubes_of(i, kept), all);
+    const std::vector<std::size_t> others = free_links_of(released.fragments, with_link, candidates);
+    Selection other = completed(with_link, released.links, others);
+    if (candidates.kind.branches()) {
+      Selection anew = completed(with_link, {}, others);
       if (anew.weight() > other.weight()) other = std::move(anew);
     }
-    if (other.weight() <= best.weight() + rounding) continue;
-    best = std::move(other);
-    kept = heaviest_first(best.taken());
+    if (other.weight() <= weight + rounding) continue;
+    best = completed(std::move(other), {}, all);
+    weight = best.weight();
     in_vain = 0;
   }
   return best;
@@ -300,11 +339,14 @@ void add_graph(Candidates& candidates) {
     ends_before.push_back(ends_before.back() + fragment.ends.size());
   const std::size_t ends = ends_before.back();
   candidates.vertices = 2 * ends;
+  candidates.links_of.resize(candidates.fragments.size());
   candidates.pairs.reserve(candidates.links.size());
   for (const Link& link : candidates.links) {
     const std::size_t from = ends_before[link.fragment] + link.end;
     const bool leads_to_junction = link.kind == LinkKind::junction;
     const std::size_t to = leads_to_junction ? ends + from : ends_before[link.to.fragment] + *link.to.end;
+    for (const std::size_t fragment : {link.fragment, link.to.fragment})
+      candidates.links_of[fragment].push_back(candidates.pairs.size());
     candidates.pairs.push_back({from, to, link.weight});
   }
 }
@@ -370,17 +412,15 @@ TubeShapes shapes_of_whole_chains(const Candidates& candidates, const std::vecto
 ChosenLinks likeliest(const Candidates& candidates) {
   std::vector<std::size_t> all(candidates.links.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const bool with_branches = candidates.kind.branches();
   Selection::Costs costs;
   const Selection none(candidates, costs);
   Selection selection = none;
   // Matching pairs ends, so it cannot represent a junction of three ends.
-  if (!with_branches) selection.take_possible(possible_matching(candidates, none));
+  if (!candidates.kind.branches()) selection.take_possible(possible_matching(candidates, none));
   selection.take_possible(all);
-  const Selection best = exchanged(none, std::move(selection), all, with_branches);
+  const Selection best = exchanged(candidates, std::move(selection), all);
   ChosenLinks chosen{.links = best.taken(), .log_odds = best.weight()};
   std::ranges::sort(chosen.links);
-  for (const Part& fragment : candidates.alone) chosen.log_odds -= fragment.cost;
   return chosen;
 }
 

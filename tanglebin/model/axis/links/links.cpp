@@ -230,13 +230,24 @@ private:
   // The link with the features of a way; none if it is not likely by that way.
   std::optional<Link> link_by(const Way& way, Link link, const FragmentEnd& from,
                               const FragmentEnd& to) const {
-    link.features[seen_empty] =
-        mean_on(way, [&](const Vector3d& axis) { return seen_.shows_empty(axis, kind_.radius) ? 1.0 : 0.0; });
-    if (link.features[seen_empty] > settings_.seen_empty_max || weight_of(link, settings_) <= 0)
-      return std::nullopt;
+    const std::optional<double> empty = share_seen_empty(way);
+    if (!empty) return std::nullopt;
+    link.features[seen_empty] = *empty;
+    if (weight_of(link, settings_) <= 0) return std::nullopt;
     link.features[obstruction] = obstruction_of(way, link, from, to);
     link.weight = weight_of(link, settings_);
     return link.weight > 0 ? std::optional(link) : std::nullopt;
+  }
+
+  // Of the places on a way; none if it is more than there may be, which a part of the way may show.
+  std::optional<double> share_seen_empty(const Way& way) const {
+    const auto places = static_cast<double>(way.size());
+    double empty = 0;
+    for (const Vector3d& axis : way) {
+      if (seen_.shows_empty(axis, kind_.radius)) ++empty;
+      if (empty / places > settings_.seen_empty_max) return std::nullopt;
+    }
+    return empty / places;
   }
 
   // What was seen to be empty counts first: there is no tube. The weights do not choose the way, so the

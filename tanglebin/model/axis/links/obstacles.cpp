@@ -1,6 +1,7 @@
 #include "tanglebin/model/axis/links/obstacles.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tanglebin/model/axis/fragments/voxel.hpp"
 
@@ -33,7 +34,8 @@ double Obstacles::overlap(const Vector3d& axis, std::size_t first, std::size_t s
   double deepest = 0;
   for (const Node& node : found->second) {
     if (node.fragment == first || node.fragment == second) continue;
-    deepest = std::max(deepest, 1 - (node.position - axis).norm() / node.reach);
+    const double squared = (node.position - axis).squaredNorm();
+    if (squared < node.reach * node.reach) deepest = std::max(deepest, 1 - std::sqrt(squared) / node.reach);
   }
   return deepest;
 }

@@ -131,10 +131,12 @@ struct TubeShapes::Sample {
   }
 
   // Of a sum of squares, m.
-  double root_mean(float sum) const {
-    return std::sqrt(static_cast<double>(sum) /
-                     static_cast<double>(std::max<std::size_t>(distance.size(), 1)));
-  }
+  double root_mean(float sum) const { return std::sqrt(static_cast<double>(sum) / pairs()); }
+
+  // The sum of squares with this root mean, m.
+  float sum_with(double root_mean) const { return static_cast<float>(root_mean * root_mean * pairs()); }
+
+  double pairs() const { return static_cast<double>(std::max<std::size_t>(distance.size(), 1)); }
 };
 
 TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius, std::size_t enough)
@@ -150,7 +152,7 @@ TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius, std:
     const Sample tube(tubes[i], step_length());
     float least = std::numeric_limits<float>::infinity();
     for (std::size_t j = 0; j < tubes.size(); ++j) {
-      if (j != i) least = least_squares(tube, all[j], least);
+      if (j != i) least = least_squares(tube, all[j], least, 0);
     }
     const double misfit = tube.root_mean(least);
     if (misfit >= alike * radius) continue;
@@ -170,13 +172,11 @@ TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius, std:
 double TubeShapes::strangeness(const CentrePath& part, double ordinary) const {
   if (tubes_.empty() || part.size() < 3) return 0;
   const Sample sample(part, step_length());
-  double strangeness = std::numeric_limits<double>::infinity();
+  const float enough = sample.sum_with(ordinary * spread_);
   float least = std::numeric_limits<float>::infinity();
-  for (auto tube = tubes_.begin(); tube != tubes_.end() && strangeness > ordinary; ++tube) {
-    least = least_squares(sample, *tube, least);
-    strangeness = sample.root_mean(least) / spread_;
-  }
-  return strangeness;
+  for (auto tube = tubes_.begin(); tube != tubes_.end() && least > enough; ++tube)
+    least = least_squares(sample, *tube, least, enough);
+  return sample.root_mean(least) / spread_;
 }
 
 TubeShapes::Distances TubeShapes::distances_along(const CentrePath& tube) const {
@@ -188,8 +188,8 @@ TubeShapes::Distances TubeShapes::distances_along(const CentrePath& tube) const 
   return distances;
 }
 
-// The matches of a part and a tube: either way round, from one end of the tube to the other. A part may be a
-// little longer than what it is part of.
+// Visits the matches of a part and a tube: either way round, from one end of the tube to the other, until the
+// visit returns false. A part may be a little longer than what it is part of.
 template <typename Visit>
 void TubeShapes::for_each_match(const Sample& part, const Distances& tube, const Visit& visit) const {
   constexpr int slack = 4;   // steps, beyond the tube's ends
@@ -203,15 +203,18 @@ void TubeShapes::for_each_match(const Sample& part, const Distances& tube, const
         const int place = first + part.steps[i];
         matches[i] = std::clamp(is_reversed ? last - place : place, 0, last);
       }
-      visit(matches);
+      if (!visit(matches)) return;
     }
   }
 }
 
-// Sample::squares() where the part fits best; `least` if it fits no better than that.
-float TubeShapes::least_squares(const Sample& part, const Distances& tube, float least) const {
-  for_each_match(part, tube,
-                 [&](const Matches& matches) { least = std::min(least, part.squares(tube, matches, least)); });
+// Sample::squares() where the part fits best; `least` if it fits no better than that. Any place will do where it
+// fits as well as `enough`.
+float TubeShapes::least_squares(const Sample& part, const Distances& tube, float least, float enough) const {
+  for_each_match(part, tube, [&](const Matches& matches) {
+    least = std::min(least, part.squares(tube, matches, least));
+    return least > enough;
+  });
   return least;
 }
 
@@ -250,6 +253,7 @@ std::vector<TubeShapes::Match> TubeShapes::best_matches(const Sample& part) cons
         matches[place] = {squares, tube, places};
       }
       ++place;
+      return true;
     });
   }
   const auto end = matches.begin() + static_cast<std::ptrdiff_t>(std::min(best, matches.size()));

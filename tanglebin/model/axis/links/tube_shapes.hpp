@@ -78,7 +78,7 @@ private:
 
   double step_length() const { return step * radius_; }  // m
   Distances distances_along(const CentrePath& tube) const;
-  float least_squares(const Sample& part, const Distances& tube, float least) const;
+  float least_squares(const Sample& part, const Distances& tube, float least, float enough) const;
   double misfit_with_straight(const Distances& tube) const;
   template <typename Visit>
   void for_each_match(const Sample& part, const Distances& tube, const Visit& visit) const;
