@@ -204,6 +204,12 @@ public:
     return (used_[pair.first] | used_[pair.second]) == 0;
   }
 
+  /// Whether a tube is represented by this fragment.
+  bool represents(std::size_t fragment) const { return tubes_[fragment] == fragment; }
+
+  /// Of the tube that a fragment is part of.
+  double cost_of_tube(std::size_t fragment) const { return parts_[tubes_[fragment]].cost; }
+
   const std::vector<std::size_t>& taken() const { return taken_; }
 
   /// The sum of the links' weights, less the costs of the tubes: log odds.
@@ -211,7 +217,7 @@ public:
     double sum = 0;
     for (const std::size_t i : taken_) sum += candidates_->pairs[i].weight;
     for (std::size_t i = 0; i < tubes_.size(); ++i) {
-      if (tubes_[i] == i) sum -= parts_[i].cost;
+      if (represents(i)) sum -= cost_of_tube(i);
     }
     return sum;
   }
@@ -282,6 +288,39 @@ std::vector<std::size_t> free_links_of(const std::vector<std::size_t>& fragments
   return free;
 }
 
+// The most that a selection can weigh with some of these links, each of which has an end on these fragments.
+// An end has one link at most, so each end counts with its heaviest one; of a link between two of the
+// fragments, with a half. What tubes cost now, larger ones need not.
+double most_with(const Selection& selection, const std::vector<std::size_t>& fragments,
+                 const std::vector<std::size_t>& links, const Candidates& candidates) {
+  double sum = selection.weight();
+  for (const std::size_t i : fragments) {
+    if (selection.represents(i)) sum += selection.cost_of_tube(i);
+  }
+  std::vector<double> most(candidates.vertices);
+  const auto raise = [&](std::size_t vertex, double weight) {
+    sum += std::max(weight - most[vertex], 0.0);
+    most[vertex] = std::max(weight, most[vertex]);
+  };
+  const auto is_theirs = [&](std::size_t fragment) {
+    return std::ranges::binary_search(fragments, fragment);
+  };
+  for (const std::size_t i : links) {
+    const auto& [from, to, weight] = candidates.pairs[i];
+    const std::size_t first = candidates.links[i].fragment;
+    const std::size_t second = candidates.links[i].to.fragment;
+    if (!is_theirs(second)) {
+      raise(from, weight + selection.cost_of_tube(second));
+    } else if (!is_theirs(first)) {
+      raise(to, weight + selection.cost_of_tube(first));
+    } else {
+      raise(from, weight / 2);
+      raise(to, weight / 2);
+    }
+  }
+  return sum;
+}
+
 // Repeatedly moves to a heavier selection: one that contains a given link, whatever can be kept of the tubes
 // that it joins, and the heaviest of the other links of their fragments. A single link rarely repairs a tree
 // made of parts of two, so this also tries to rebuild both from nothing. A try looks at every fragment, so
@@ -292,12 +331,14 @@ Selection exchanged(const Candidates& candidates, Selection best, const std::vec
   std::size_t tries_left = looks_max / std::max<std::size_t>(candidates.fragments.size(), 1);
   std::size_t in_vain = 0;  // links tried since the last exchange
   double weight = best.weight();
+  Selection with_link = best;
   for (std::size_t i = 0; in_vain < all.size() && tries_left > 0; i = (i + 1) % all.size(), --tries_left) {
     ++in_vain;
-    Selection with_link = best;
+    with_link = best;
     const Selection::Released released = with_link.release_tubes_of(i);
     if (!with_link.take(i)) continue;
     const std::vector<std::size_t> others = free_links_of(released.fragments, with_link, candidates);
+    if (most_with(with_link, released.fragments, others, candidates) <= weight) continue;  // as nearly always
     Selection other = completed(with_link, released.links, others);
     if (candidates.kind.branches()) {
       Selection anew = completed(with_link, {}, others);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -117,6 +118,12 @@ double weight_of(const Link& link, const LinkSettings& settings) {
                                                                                  link.features.begin(), 0.0);
 }
 
+// The most that a link may have of a feature that it has none of yet, to weigh more than 0.
+double most_of(const Link& link, std::size_t feature, const LinkSettings& settings) {
+  const double cost = -ends_taken(link.kind) * settings.weights.of(link.kind)[feature];
+  return cost > 0 ? weight_of(link, settings) / cost : std::numeric_limits<double>::infinity();
+}
+
 std::vector<Link> heaviest_first(std::vector<Link> links) {
   std::ranges::stable_sort(links, std::greater<>(), &Link::weight);
   return links;
@@ -143,12 +150,17 @@ Way way_over(double gap, double radius, const Place& place) {
   return way;
 }
 
-// The mean of a measure over the places on a way.
+// The mean of a measure, which is at least 0, over the places on a way; none if it is more than `most`, which
+// a part of the way may show.
 template <typename Measure>
-double mean_on(const Way& way, const Measure& measure) {
+std::optional<double> mean_on(const Way& way, double most, const Measure& measure) {
+  const auto places = static_cast<double>(way.size());
   double sum = 0;
-  for (const Vector3d& place : way) sum += measure(place);
-  return sum / static_cast<double>(way.size());
+  for (const Vector3d& place : way) {
+    sum += measure(place);
+    if (sum / places > most) return std::nullopt;
+  }
+  return sum / places;
 }
 
 /// Finds the links between two fragments.
@@ -230,24 +242,18 @@ private:
   // The link with the features of a way; none if it is not likely by that way.
   std::optional<Link> link_by(const Way& way, Link link, const FragmentEnd& from,
                               const FragmentEnd& to) const {
-    const std::optional<double> empty = share_seen_empty(way);
+    const double empty_max = std::min(settings_.seen_empty_max, most_of(link, seen_empty, settings_));
+    const std::optional<double> empty = mean_on(way, empty_max, [&](const Vector3d& axis) {
+      return seen_.shows_empty(axis, kind_.radius) ? 1.0 : 0.0;
+    });
     if (!empty) return std::nullopt;
     link.features[seen_empty] = *empty;
-    if (weight_of(link, settings_) <= 0) return std::nullopt;
-    link.features[obstruction] = obstruction_of(way, link, from, to);
+    const double overlap_max = std::pow(most_of(link, obstruction, settings_), 2);
+    const std::optional<double> overlap = overlap_on(way, overlap_max, link, from, to);
+    if (!overlap) return std::nullopt;
+    link.features[obstruction] = std::sqrt(*overlap);
     link.weight = weight_of(link, settings_);
     return link.weight > 0 ? std::optional(link) : std::nullopt;
-  }
-
-  // Of the places on a way; none if it is more than there may be, which a part of the way may show.
-  std::optional<double> share_seen_empty(const Way& way) const {
-    const auto places = static_cast<double>(way.size());
-    double empty = 0;
-    for (const Vector3d& axis : way) {
-      if (seen_.shows_empty(axis, kind_.radius)) ++empty;
-      if (empty / places > settings_.seen_empty_max) return std::nullopt;
-    }
-    return empty / places;
   }
 
   // What was seen to be empty counts first: there is no tube. The weights do not choose the way, so the
@@ -256,16 +262,16 @@ private:
     return {link.features[seen_empty], link.features[obstruction]};
   }
 
-  // Ignores what is near the ends: other pieces of the same tube, and overshoots of a neighbour's centre
-  // line.
-  double obstruction_of(const Way& way, const Link& link, const FragmentEnd& from,
-                        const FragmentEnd& to) const {
+  // The mean overlap with other fragments, if it is no more than `most`. Ignores what is near the ends: other
+  // pieces of the same tube, and overshoots of a neighbour's centre line.
+  std::optional<double> overlap_on(const Way& way, double most, const Link& link, const FragmentEnd& from,
+                                   const FragmentEnd& to) const {
     const double diameter = 2 * kind_.radius;
-    return std::sqrt(mean_on(way, [&](const Vector3d& axis) {
+    return mean_on(way, most, [&](const Vector3d& axis) {
       const bool is_near_an_end =
           (axis - from.position).norm() < diameter || (axis - to.position).norm() < diameter;
       return is_near_an_end ? 0 : obstacles_.overlap(axis, link.fragment, link.to.fragment);
-    }));
+    });
   }
 
   const std::vector<Fragment>& fragments_;

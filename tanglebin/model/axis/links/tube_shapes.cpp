@@ -208,8 +208,8 @@ void TubeShapes::for_each_match(const Sample& part, const Distances& tube, const
   }
 }
 
-// Sample::squares() where the part fits best; `least` if it fits no better than that. Any place will do where it
-// fits as well as `enough`.
+// Sample::squares() where the part fits best; `least` if it fits no better than that. Any place will do where
+// it fits as well as `enough`.
 float TubeShapes::least_squares(const Sample& part, const Distances& tube, float least, float enough) const {
   for_each_match(part, tube, [&](const Matches& matches) {
     least = std::min(least, part.squares(tube, matches, least));
