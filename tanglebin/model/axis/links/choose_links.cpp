@@ -177,9 +177,9 @@ public:
 
   /// Gives up the tubes that a link would join.
   Released release_tubes_of(std::size_t link) {
-    const auto [first, second] = tubes_of(link);
+    const std::pair<std::size_t, std::size_t> tubes = tubes_of(link);
     const auto is_theirs = [&](std::size_t fragment) {
-      return tubes_[fragment] == first || tubes_[fragment] == second;
+      return tubes_[fragment] == tubes.first || tubes_[fragment] == tubes.second;
     };
     Released released;
     std::erase_if(taken_, [&](std::size_t i) {
