@@ -37,7 +37,7 @@ void RangeImage::keep_measured_rows() {
 }
 
 // Compared as doubles: the projection of a point beside a near camera may be a number that no integer holds.
-double RangeImage::nearest_in(const Eigen::Vector2d& middle, double reach) const {
+double RangeImage::nearest_in(const Eigen::Vector2d& middle, double reach, double near) const {
   const auto between = [](double value, std::ptrdiff_t first, std::ptrdiff_t end) {
     return static_cast<std::ptrdiff_t>(
         std::clamp(value, static_cast<double>(first), static_cast<double>(end)));
@@ -47,7 +47,7 @@ double RangeImage::nearest_in(const Eigen::Vector2d& middle, double reach) const
   const auto top = between(std::round(middle.y()) - reach, first_row_, end_row_);
   const auto bottom = between(std::round(middle.y()) + reach + 1, first_row_, end_row_);
   float nearest = std::numeric_limits<float>::infinity();
-  for (auto v = top; v < bottom; ++v) {
+  for (auto v = top; v < bottom && nearest >= near; ++v) {
     const auto row = depths_.begin() + (v - first_row_) * camera_.width;
     for (auto depth = row + left; depth < row + right; ++depth) nearest = std::min(nearest, *depth);
   }
@@ -59,7 +59,8 @@ bool RangeImage::hides(const Eigen::Vector3d& first, const Eigen::Vector3d& seco
   const std::optional<Eigen::Vector2d> second_image = project(camera_, second);
   if (!first_image || !second_image) return false;
   const Eigen::Vector2d middle = (*first_image + *second_image) / 2;
-  return nearest_in(middle, radius) < std::max(depth_of(camera_, first), depth_of(camera_, second));
+  const double depth = std::max(depth_of(camera_, first), depth_of(camera_, second));
+  return nearest_in(middle, radius, depth) < depth;
 }
 
 bool RangeImage::is_solid(const Eigen::Vector3d& axis, double radius) const {
@@ -73,8 +74,10 @@ bool RangeImage::shows_empty(const Eigen::Vector3d& axis, double radius) const {
   const std::optional<Eigen::Vector2d> image = project(camera_, axis);
   if (!image) return false;
   const double depth = depth_of(camera_, axis);
-  const double nearest = nearest_in(*image, std::max(1.0, std::floor(radius * camera_.fx / depth / 3)));
-  return std::isfinite(nearest) && nearest > depth - radius / 2;
+  const double front = depth - radius / 2;
+  const double nearest =
+      nearest_in(*image, std::max(1.0, std::floor(radius * camera_.fx / depth / 3)), front);
+  return std::isfinite(nearest) && nearest > front;
 }
 
 bool RangeImage::covers(const Eigen::Vector3d& point, double radius) const {

@@ -35,8 +35,9 @@ public:
   void keep_measured_rows();
 
 private:
-  // The smallest depth within `reach` pixels of a place in the image, ∞ if there is none. m
-  double nearest_in(const Eigen::Vector2d& middle, double reach) const;
+  // The smallest depth within `reach` pixels of a place in the image, ∞ if there is none. m. Ends early where
+  // it is smaller than `near`.
+  double nearest_in(const Eigen::Vector2d& middle, double reach, double near) const;
 
   Camera camera_;
   std::vector<Eigen::AlignedBox3d> solid_;

@@ -106,18 +106,38 @@ TubeKind of_length(TubeKind kind, double length) {
   return kind;
 }
 
-// Of the lengths from that of the longest fragment on, m, the one with the most evidence. At too small a
-// length, true links are missing; at too large a length, chains are seen to end before it.
-Trial likeliest_length(double longest, double most, const TubeKind& kind,
+TubeKind of_any_length(TubeKind kind) {
+  kind.segments[0].length = std::numeric_limits<double>::infinity();
+  kind.length_min = 0;
+  return kind;
+}
+
+// Of these lengths, m, the one with the most evidence. At too small a length, true links are missing; at too
+// large a length, chains are seen to end before it.
+Trial likeliest_length(const std::vector<double>& lengths, const TubeKind& kind,
                        const std::vector<Fragment>& fragments, const std::vector<Link>& links,
                        const RangeImage& seen, const LinkSettings& settings) {
-  constexpr double step = 1.03;
-  Trial likeliest{.length = longest, .chains = 0, .evidence = -std::numeric_limits<double>::infinity()};
-  for (double length = longest; length < most; length *= step) {
+  Trial likeliest{
+      .length = lengths.front(), .chains = 0, .evidence = -std::numeric_limits<double>::infinity()};
+  for (const double length : lengths) {
     const Trial trial = trial_of(of_length(kind, length), fragments, links, seen, settings);
     if (trial.evidence > likeliest.evidence) likeliest = trial;
   }
   return likeliest;
+}
+
+// The lengths, m, that the tubes may have: from that of the longest fragment on. Where tubes are torn into
+// many pieces, also those of longer chains.
+std::vector<double> lengths_to_try(double longest, std::vector<Chain> chains) {
+  constexpr double step = 1.03;
+  constexpr double far = 2.6;
+  std::vector<double> lengths;
+  for (double length = longest; length < far * longest; length *= step) lengths.push_back(length);
+  std::ranges::sort(chains, {}, &Chain::length);
+  for (const Chain& chain : chains) {
+    if (chain.length > step * lengths.back()) lengths.push_back(chain.length);
+  }
+  return lengths;
 }
 
 // For the length that a kind is known to have. A fragment that is longer may be no tube: the rim of a bin.
@@ -136,9 +156,12 @@ TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, cons
   const double longest = std::ranges::max_element(fragments, {}, &Fragment::length)->length;
   const bool is_known = kind.length_is_known();
   if (is_known && longest <= length_max(kind.length(), settings)) return kind;
-  const double most = 2.6 * longest;
-  const std::vector<Link> links = links_to_try(fragments, seen, of_length(kind, most), settings);
-  const Trial likeliest = likeliest_length(longest, most, kind, fragments, links, seen, settings);
+  const TubeKind any = of_any_length(kind);
+  const std::vector<Link> links = links_to_try(fragments, seen, any, settings);
+  const ChosenLinks chosen = choose_links(fragments, links, any, settings, seen);
+  const std::vector<double> lengths =
+      lengths_to_try(longest, chains_of(fragments, links, chosen.links, kind.radius, seen));
+  const Trial likeliest = likeliest_length(lengths, kind, fragments, links, seen, settings);
   const bool is_sure = likeliest.chains >= enough;
   if (is_known && !is_sure) return kind;
   if (is_known && evidence_for(kind, fragments, links, seen, settings) >= likeliest.evidence) return kind;

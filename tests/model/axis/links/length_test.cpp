@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "tanglebin/model/axis/axis_method.hpp"
 #include "tests/model/scene/scanned.hpp"
@@ -81,6 +83,20 @@ TEST(WithLength, IsThatOfTubesLongerThanAnyPieceThatIsSeen) {
   const AxisModel found = modelled_with(tubes, 0, infinite);
   EXPECT_NEAR(found.kinds[0].length, 0.4, 0.005);
   EXPECT_EQ(found.model.tubes.size(), 5U);
+}
+
+// One tube of which the scanner lost nine short pieces: its longest piece is a tenth of it.
+TEST(WithLength, IsThatOfATubeTornIntoManyPieces) {
+  PointCloud cloud = test::scanned({test::chain(1, 0.0125, {{-0.25, 0, 0.0125}, {0.25, 0, 0.0125}})});
+  std::erase_if(cloud.points, [](const Eigen::Vector3f& point) {
+    const double way = (point.x() + 0.25) / 0.05;
+    return way - std::floor(way) < 0.3;
+  });
+  KnownScene known = test::paper_scene();
+  known.kinds[0].segments[0].length = infinite;
+  const AxisModel found = model_by_axes(cloud, known, 1, 0);
+  EXPECT_NEAR(found.kinds[0].length, 0.49, 0.015);
+  EXPECT_EQ(found.model.tubes.size(), 1U);
 }
 
 TEST(WithLength, OfTubesThatDifferIsTheLargest) {
