@@ -133,6 +133,17 @@ void add_tubes(Model& model, AxisSteps& steps, std::vector<TubeCandidate> candid
   }
 }
 
+// What is known, with the lengths that were found where none was.
+KnownScene with_found_lengths(KnownScene known, const std::vector<AxisSteps>& kinds) {
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    TubeKind& kind = known.kinds[i];
+    if (kind.length_is_known() || kinds[i].length_min == 0) continue;
+    kind.segments[0].length = kinds[i].length;
+    kind.length_min = kinds[i].length_min;
+  }
+  return known;
+}
+
 // The steps from votes to labels. The grid of voxels that the votes are sorted into is moved by `shift`.
 AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& scan,
                       const AxisSettings& settings, double shift, const std::function<void()>& at_step) {
@@ -156,6 +167,7 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
     look_beyond_ends(steps.fragments, known_kind.radius, seen);
     const TubeKind kind = with_length(known_kind, steps.fragments, seen, settings.link);
     steps.length = kind.length();
+    steps.length_min = kind.length_min;
     steps.links = find_links(steps.fragments, seen, kind, settings.link,
                              space_of_other_kinds(result.kinds, known, steps));
     steps.chosen = choose_links(steps.fragments, steps.links, kind, settings.link, seen).links;
@@ -182,7 +194,7 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
                  static_cast<std::size_t>(std::ranges::count_if(
                      model.labels, [](std::int32_t label) { return label > bin_label; })),
                  "points");
-  weigh(model, scan.cloud, known);
+  weigh(model, scan.cloud, with_found_lengths(known, result.kinds));
   return result;
 }
 
