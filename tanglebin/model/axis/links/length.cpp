@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <set>
 #include <utility>
@@ -12,6 +13,8 @@
 
 namespace tanglebin {
 namespace {
+
+constexpr std::size_t enough = 3;  // chains of a length, to be sure that it is the tubes'
 
 /// A chain of fragments.
 struct Chain {
@@ -87,10 +90,11 @@ struct Trial {
   double evidence;     ///< log odds
 };
 
-// Tries a kind of a known length. `links` are those of longer chains.
+// Tries a kind of a known length. `links` are those of longer chains. That fragments are parts of tubes more
+// often than tubes is no evidence for a length: it would be for the largest.
 Trial trial_of(const TubeKind& kind, const std::vector<Fragment>& fragments, std::vector<Link> links,
                const RangeImage& seen, const LinkSettings& settings) {
-  constexpr double of_a_chain = 20;  // evidence for its length
+  constexpr double of_a_chain = 10;  // evidence for its length
   const double length = kind.length();
   links = possible_links(length, fragments, std::move(links), settings);
   const ChosenLinks chosen = choose_links(fragments, links, kind, settings, seen);
@@ -98,7 +102,8 @@ Trial trial_of(const TubeKind& kind, const std::vector<Fragment>& fragments, std
       as_long_as(kind, chains_of(fragments, links, chosen.links, kind.radius, seen));
   return {.length = chains.empty() ? length : std::ranges::max(chains, {}, &Chain::length).length,
           .chains = chains.size(),
-          .evidence = chosen.log_odds + of_a_chain * static_cast<double>(chains.size())};
+          .evidence = chosen.log_odds - settings.chain_prior * static_cast<double>(chosen.links.size()) +
+                      of_a_chain * static_cast<double>(chains.size())};
 }
 
 TubeKind of_length(TubeKind kind, double length) {
@@ -126,13 +131,24 @@ Trial likeliest_length(const std::vector<double>& lengths, const TubeKind& kind,
   return likeliest;
 }
 
-// The lengths, m, that the tubes may have: from that of the longest fragment on. Where tubes are torn into
-// many pieces, also those of longer chains.
-std::vector<double> lengths_to_try(double longest, std::vector<Chain> chains) {
+// Of the fragments, m. Two tubes that are taken for one may be longer than the tubes are, but then they are
+// fewer than it takes to be sure of a length.
+double length_of_third_longest(const std::vector<Fragment>& fragments) {
+  std::vector<double> lengths;
+  lengths.reserve(fragments.size());
+  for (const Fragment& fragment : fragments) lengths.push_back(fragment.length);
+  const auto third = lengths.begin() + static_cast<std::ptrdiff_t>(std::min(enough, lengths.size()) - 1);
+  std::ranges::nth_element(lengths, third, std::greater<>());
+  return *third;
+}
+
+// The lengths, m, that the tubes may have. Where tubes are torn into many pieces, also those of longer
+// chains.
+std::vector<double> lengths_to_try(double shortest, double longest, std::vector<Chain> chains) {
   constexpr double step = 1.03;
   constexpr double far = 2.6;
   std::vector<double> lengths;
-  for (double length = longest; length < far * longest; length *= step) lengths.push_back(length);
+  for (double length = shortest; length < far * longest; length *= step) lengths.push_back(length);
   std::ranges::sort(chains, {}, &Chain::length);
   for (const Chain& chain : chains) {
     if (chain.length > step * lengths.back()) lengths.push_back(chain.length);
@@ -151,7 +167,6 @@ double evidence_for(const TubeKind& known, const std::vector<Fragment>& fragment
 
 TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, const RangeImage& seen,
                      const LinkSettings& settings) {
-  constexpr std::size_t enough = 3;  // chains that agree
   if (kind.branches() || fragments.empty()) return kind;
   const double longest = std::ranges::max_element(fragments, {}, &Fragment::length)->length;
   const bool is_known = kind.length_is_known();
@@ -160,12 +175,13 @@ TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, cons
   const std::vector<Link> links = links_to_try(fragments, seen, any, settings);
   const ChosenLinks chosen = choose_links(fragments, links, any, settings, seen);
   const std::vector<double> lengths =
-      lengths_to_try(longest, chains_of(fragments, links, chosen.links, kind.radius, seen));
+      lengths_to_try(length_of_third_longest(fragments), longest,
+                     chains_of(fragments, links, chosen.links, kind.radius, seen));
   const Trial likeliest = likeliest_length(lengths, kind, fragments, links, seen, settings);
   const bool is_sure = likeliest.chains >= enough;
   if (is_known && !is_sure) return kind;
   if (is_known && evidence_for(kind, fragments, links, seen, settings) >= likeliest.evidence) return kind;
-  kind.segments[0].length = std::max(likeliest.length, longest);
+  kind.segments[0].length = is_sure ? likeliest.length : std::max(likeliest.length, longest);
   if (!is_known && is_sure) kind.length_min = kind.segments[0].length;
   return kind;
 }
