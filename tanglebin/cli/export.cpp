@@ -13,6 +13,7 @@
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/options/arguments.hpp"
 #include "tanglebin/cli/options/many_cases.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
 #include "tanglebin/cli/options/shard_option.hpp"
 #include "tanglebin/cli/terminal/exit_status.hpp"
 #include "tanglebin/cli/terminal/print.hpp"
@@ -67,6 +68,7 @@ void print_text(const ExportArguments& arguments, const ExportSummary& summary, 
 }
 
 void export_cases(const ExportArguments& arguments) {
+  expect_no_input("--out", arguments.out, {arguments.dataset});
   const ExportFormat format = export_format_named(arguments.format);
   const std::optional<Shard> shard = shard_of(arguments.shard);
   expect_dataset(arguments.dataset);

@@ -47,7 +47,7 @@ Recipe recipe_of(const GenerateArguments& arguments) {
 }
 
 void generate(const GenerateArguments& arguments) {
-  if (arguments.picture) expect_outputs({{"--picture", *arguments.picture, {".png"}}});
+  if (arguments.picture) expect_outputs({{"--picture", *arguments.picture, {".png"}}}, {arguments.recipe});
   const Recipe recipe = recipe_of(arguments);
   const std::optional<Shard> shard = shard_of(arguments.shard);
   std::vector<CaseId> wanted = chosen(arguments.many, cases(recipe), arguments.recipe);

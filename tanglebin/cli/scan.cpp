@@ -187,7 +187,7 @@ Setting setting_of(const ScanArguments& arguments) {
 }
 
 void scan_configuration(const ScanArguments& arguments) {
-  expect_outputs(outputs(arguments));
+  expect_outputs(outputs(arguments), {arguments.configuration});
   const auto [scanner, support] = setting_of(arguments);
   const std::uint64_t seed = seed_of(arguments);
   const std::vector<Tube> tubes =
