@@ -103,7 +103,7 @@ void add_export(CLI::App& app) {
       ->required();
   command->add_option("--format", arguments->format, "Format: " + names_of_formats())
       ->required()
-      ->option_text("NAME");
+      ->option_text("NAME REQUIRED");
   command->add_option("--out", arguments->out, "Directory of the export; resumes an interrupted run")
       ->required();
   add_options(*command, arguments->many);
