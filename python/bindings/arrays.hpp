@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -64,9 +65,14 @@ inline void expect_shape(bool is_right, const py::array& array, const char* fiel
   if (!is_right) throw InputError({"", 0, field}, text_of_shape(array), expected);
 }
 
-/// Copies an array of floating-point numbers, of which `count` make an item: n x 3, h x w x 3, …
+/// Copies an array of real numbers, of which one or several make an item: n x 3, h x w x 3, … Throws
+/// InputError naming `field` for other types: NumPy would convert complex numbers, booleans and text.
 template <typename Item>
-std::vector<Item> items_of(const py::array_t<float, py::array::c_style | py::array::forcecast>& array) {
+std::vector<Item> items_of(const py::array& any, const char* field) {
+  if (std::string_view("fiu").find(any.dtype().kind()) == std::string_view::npos)
+    throw InputError({"", 0, field}, "an array of " + std::string(py::str(any.dtype())),
+                     "an array of real numbers");
+  const py::array_t<float, py::array::c_style | py::array::forcecast> array(any);
   static_assert(std::is_trivially_copyable_v<float> && sizeof(Item) % sizeof(float) == 0);
   std::vector<Item> items(static_cast<std::size_t>(array.nbytes()) / sizeof(Item));
   if (!items.empty())

@@ -30,8 +30,6 @@ namespace {
 namespace io = tanglebin::doc::io;
 namespace fs = std::filesystem;
 
-using FloatArray = py::array_t<float, py::array::c_style | py::array::forcecast>;
-
 // Puts the values of a property into their place, which stays where it is: arrays on it stay valid.
 template <typename Value>
 void assign(std::vector<Value>& property, const std::vector<Value>& values, std::size_t points,
@@ -48,10 +46,10 @@ auto optional_values(const std::optional<Array>& array, const Convert& convert) 
   return array ? convert(*array) : decltype(convert(*array)){};
 }
 
-std::vector<Eigen::Vector3f> vectors_of(const FloatArray& array, const char* field) {
+std::vector<Eigen::Vector3f> vectors_of(const py::array& array, const char* field) {
   expect_shape(array.ndim() >= 2 && array.ndim() <= 3 && array.shape(array.ndim() - 1) == 3, array, field,
                "n x 3 or h x w x 3");
-  return items_of<Eigen::Vector3f>(array);
+  return items_of<Eigen::Vector3f>(array, field);
 }
 
 std::vector<Color> colors_of(const py::array& array) {
@@ -71,17 +69,17 @@ std::vector<std::int32_t> labels_from(const py::array& array) {
   return labels;
 }
 
-std::vector<float> intensities_of(const FloatArray& array) {
-  return items_of<float>(array);
+std::vector<float> intensities_of(const py::array& array) {
+  return items_of<float>(array, "intensities");
 }
 
 std::vector<std::uint8_t> mixed_of(const py::array& array) {
   return integers_of<std::uint8_t>(array, "mixed");
 }
 
-PointCloud cloud_of(const FloatArray& points, const std::optional<AnyArray>& labels,
-                    const std::optional<AnyArray>& colors, const std::optional<FloatArray>& normals,
-                    const std::optional<FloatArray>& intensities, const std::optional<AnyArray>& mixed,
+PointCloud cloud_of(const AnyArray& points, const std::optional<AnyArray>& labels,
+                    const std::optional<AnyArray>& colors, const std::optional<AnyArray>& normals,
+                    const std::optional<AnyArray>& intensities, const std::optional<AnyArray>& mixed,
                     const std::optional<py::array_t<double>>& viewpoint) {
   PointCloud cloud;
   cloud.points = vectors_of(points, "points");
@@ -125,7 +123,7 @@ auto setter(const char* name) {
   };
 }
 
-std::vector<Eigen::Vector3f> normals_of(const FloatArray& array) {
+std::vector<Eigen::Vector3f> normals_of(const py::array& array) {
   return vectors_of(array, "normals");
 }
 
@@ -140,9 +138,9 @@ py::tuple cloud_state(const py::object& self) {
 }
 
 PointCloud cloud_from(const py::tuple& state) {
-  return cloud_of(state[0].cast<FloatArray>(), state[1].cast<std::optional<AnyArray>>(),
-                  state[2].cast<std::optional<AnyArray>>(), state[3].cast<std::optional<FloatArray>>(),
-                  state[4].cast<std::optional<FloatArray>>(), state[5].cast<std::optional<AnyArray>>(),
+  return cloud_of(state[0].cast<AnyArray>(), state[1].cast<std::optional<AnyArray>>(),
+                  state[2].cast<std::optional<AnyArray>>(), state[3].cast<std::optional<AnyArray>>(),
+                  state[4].cast<std::optional<AnyArray>>(), state[5].cast<std::optional<AnyArray>>(),
                   state[6].cast<std::optional<py::array_t<double>>>());
 }
 
@@ -169,11 +167,11 @@ void bind_point_cloud(py::module_& module) {
                     "n x 3 uint8: red, green, blue; in the cloud's memory. None if it has none.")
       .def_property(
           "normals", getter<&PointCloud::normals>(),
-          setter<&PointCloud::normals, FloatArray, &normals_of>("normals"),
+          setter<&PointCloud::normals, AnyArray, &normals_of>("normals"),
           "n x 3 float32: outward unit normals of the true surface; in the cloud's memory. None if it has "
           "none.")
       .def_property("intensities", getter<&PointCloud::intensities>(),
-                    setter<&PointCloud::intensities, FloatArray, &intensities_of>("intensities"),
+                    setter<&PointCloud::intensities, AnyArray, &intensities_of>("intensities"),
                     "float32: signal-to-noise ratio; in the cloud's memory. None if it has none.")
       .def_property(
           "mixed", getter<&PointCloud::mixed>(), setter<&PointCloud::mixed, AnyArray, &mixed_of>("mixed"),
@@ -216,7 +214,7 @@ void bind_point_cloud(py::module_& module) {
       py::arg("tubes"), doc::cloud::label_colors);
   module.def(
       "cloud_from_depths",
-      [](const FloatArray& depths, const Intrinsics& intrinsics) {
+      [](const AnyArray& depths, const Intrinsics& intrinsics) {
         return cloud_from_depths(depths_of(depths, "depths"), intrinsics);
       },
       py::arg("depths"), py::arg("intrinsics"), doc::cloud::cloud_from_depths);
@@ -297,7 +295,7 @@ void bind_writers(py::module_& module) {
   module.attr("depth_scale") = depth_scale;
   module.def(
       "depth_png",
-      [](const FloatArray& depths) {
+      [](const AnyArray& depths) {
         const DepthImage image = depths_of(depths, "depths");
         return py::bytes(without_gil([&] { return depth_png(image); }));
       },
@@ -323,9 +321,9 @@ LabelImage labels_of_png(const std::string& png, const std::string& name) {
   return labels;
 }
 
-DepthImage depths_of(const FloatArray& array, const char* field) {
+DepthImage depths_of(const py::array& array, const char* field) {
   expect_shape(array.ndim() == 2, array, field, "h x w");
-  return {static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)), items_of<float>(array)};
+  return {static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)), items_of<float>(array, field)};
 }
 
 LabelImage labels_of(const py::array& array, const char* field) {

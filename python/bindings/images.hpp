@@ -17,9 +17,8 @@ inline py::array_t<std::int32_t> array_of(LabelImage image) {
 /// Decodes the PNG file of a label image. Throws InputError naming the file `name`.
 LabelImage labels_of_png(const std::string& png, const std::string& name);
 
-/// Copies. Throws InputError naming `field` unless the array is h x w.
-DepthImage depths_of(const py::array_t<float, py::array::c_style | py::array::forcecast>& array,
-                     const char* field);
+/// Copies. Throws InputError naming `field` unless the array is h x w, of real numbers or of integers.
+DepthImage depths_of(const py::array& array, const char* field);
 LabelImage labels_of(const py::array& array, const char* field);
 
 }  // namespace tanglebin::python

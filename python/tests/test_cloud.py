@@ -157,6 +157,21 @@ def test_depths_become_points_in_the_cameras_frame():
     assert '"width": 1920' in tanglebin.camera_json(tanglebin.camera_preset("paper"))
 
 
+@pytest.mark.parametrize("intrinsics", [(5, 3, 0, 10, 2, 1), (5, 3, 10, np.nan, 2, 1)])
+def test_depths_need_a_focal_length(intrinsics):
+    with pytest.raises(ValueError, match="expected a positive number of pixels"):
+        tanglebin.cloud_from_depths(np.ones((3, 5), np.float32), tanglebin.Intrinsics(*intrinsics))
+
+
+@pytest.mark.parametrize("kind", [complex, bool, str])
+def test_points_are_real_numbers(kind):
+    other = np.zeros((2, 3)).astype(kind)
+    with pytest.raises(ValueError, match="points: found an array of .*, expected an array of real numbers"):
+        tanglebin.PointCloud(other)
+    with pytest.raises(ValueError, match="normals: found an array of .*, expected an array of real numbers"):
+        tanglebin.PointCloud(np.zeros((2, 3)), normals=other)
+
+
 def test_labels_give_colours():
     colors = tanglebin.label_colors(2)
     assert colors.shape == (3, 3) and len({tuple(color) for color in colors}) == 3

@@ -52,4 +52,15 @@ auto with_file(const std::string& file, Call call) {
   }
 }
 
+/// Calls `call`, which looks up or reads what a value names, and puts the value's place before its
+/// InputError.
+template <typename Call>
+auto with_place(const InputPlace& place, Call call) {
+  try {
+    return call();
+  } catch (const InputError& error) {
+    throw InputError(place, error.what());
+  }
+}
+
 }  // namespace tanglebin

@@ -29,16 +29,21 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
 
 }  // namespace
 
-std::string suggestion(std::string_view name, const std::vector<std::string_view>& known) {
+std::optional<std::string_view> nearest_name(std::string_view name,
+                                             const std::vector<std::string_view>& known) {
   const auto distance = [name](std::string_view other) { return edit_distance(name, other); };
   const auto begins_with_name = [name](std::string_view other) {
     return !name.empty() && other.starts_with(name);
   };
   const auto nearest = std::ranges::min_element(known, {}, distance);
-  if (distance(*nearest) <= std::max<std::size_t>(1, name.size() / 3))
-    return fmt::format("did you mean {}?", excerpt(*nearest));
+  if (distance(*nearest) <= std::max<std::size_t>(1, name.size() / 3)) return *nearest;
   const auto longer = std::ranges::find_if(known, begins_with_name);
-  if (longer != known.end()) return fmt::format("did you mean {}?", excerpt(*longer));
+  return longer != known.end() ? std::optional(*longer) : std::nullopt;
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string_view>& known) {
+  if (const auto nearest = nearest_name(name, known))
+    return fmt::format("did you mean {}?", excerpt(*nearest));
   return fmt::format("expected one of {}", fmt::join(known, ", "));
 }
 

@@ -216,7 +216,7 @@ void print_text(const CalibrateArguments& arguments, const Calibration& calibrat
 }
 
 void calibrate_method(const CalibrateArguments& arguments) {
-  expect_outputs({{"--out", arguments.out, {".toml"}}});
+  expect_outputs({{"--out", arguments.out, {".toml"}}}, {arguments.recipe, arguments.start});
   if (arguments.out == standard_stream)
     throw InputError({"", 0, "--out"}, "'-'", "a file: what is done is kept beside it");
   const Recipe recipe = read_input(arguments.recipe, [](auto&&... from) { return read_recipe(from...); });

@@ -23,6 +23,7 @@
 #include "tanglebin/cli/options/checks.hpp"
 #include "tanglebin/cli/options/many_cases.hpp"
 #include "tanglebin/cli/options/model_options.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
 #include "tanglebin/cli/options/scene_options.hpp"
 #include "tanglebin/cli/options/shard_option.hpp"
 #include "tanglebin/cli/terminal/exit_status.hpp"
@@ -225,6 +226,7 @@ void print_text(const ExperimentArguments& arguments, const ExperimentSummary& s
 }
 
 void experiment(const ExperimentArguments& arguments) {
+  expect_no_input("--out", arguments.out, {arguments.dataset});
   const ModelSettings model =
       settings_of(arguments.model, profile_of(arguments.model, methods_of(arguments)));
   ExperimentSettings settings{.methods = entries_of(arguments, model),

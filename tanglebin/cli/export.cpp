@@ -13,6 +13,7 @@
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/options/arguments.hpp"
 #include "tanglebin/cli/options/many_cases.hpp"
+#include "tanglebin/cli/options/outputs.hpp"
 #include "tanglebin/cli/options/shard_option.hpp"
 #include "tanglebin/cli/terminal/exit_status.hpp"
 #include "tanglebin/cli/terminal/print.hpp"
@@ -67,6 +68,7 @@ void print_text(const ExportArguments& arguments, const ExportSummary& summary, 
 }
 
 void export_cases(const ExportArguments& arguments) {
+  expect_no_input("--out", arguments.out, {arguments.dataset});
   const ExportFormat format = export_format_named(arguments.format);
   const std::optional<Shard> shard = shard_of(arguments.shard);
   expect_dataset(arguments.dataset);
@@ -101,7 +103,7 @@ void add_export(CLI::App& app) {
       ->required();
   command->add_option("--format", arguments->format, "Format: " + names_of_formats())
       ->required()
-      ->option_text("NAME");
+      ->option_text("NAME REQUIRED");
   command->add_option("--out", arguments->out, "Directory of the export; resumes an interrupted run")
       ->required();
   add_options(*command, arguments->many);

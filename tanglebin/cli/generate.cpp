@@ -15,6 +15,7 @@
 #include "tanglebin/cli/options/shard_option.hpp"
 #include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/cli/terminal/progress_report.hpp"
+#include "tanglebin/dataset/fill_dataset.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 #include "tanglebin/runs/shard.hpp"
@@ -47,13 +48,14 @@ Recipe recipe_of(const GenerateArguments& arguments) {
 }
 
 void generate(const GenerateArguments& arguments) {
-  if (arguments.picture) expect_outputs({{"--picture", *arguments.picture, {".png"}}});
+  if (arguments.picture) expect_outputs({{"--picture", *arguments.picture, {".png"}}}, {arguments.recipe});
   const Recipe recipe = recipe_of(arguments);
   const std::optional<Shard> shard = shard_of(arguments.shard);
   std::vector<CaseId> wanted = chosen(arguments.many, cases(recipe), arguments.recipe);
   if (shard) wanted = part_of(*shard, wanted);
   if (recipe.random.empty()) with_file(arguments.recipe, [&] { expect_bin_in_view(recipe); });
   if (arguments.dry_run) {
+    if (!arguments.out.empty()) expect_fillable(arguments.out, recipe);
     print_dry_run(recipe, wanted, {arguments.many.jobs, arguments.json, arguments.picture});
     return;
   }
@@ -82,7 +84,8 @@ void add_generate(CLI::App& app) {
       command->add_option("--out", arguments->out, "Directory of the dataset; resumes an interrupted run");
   CLI::Option* dry_run = command->add_flag(
       "--dry-run", arguments->dry_run,
-      "Write no dataset: make a few cases in memory, say what all will take and what looks wrong");
+      "Write no dataset: make a few cases in memory, say what all will take and what looks wrong; with --out "
+      "also whether they can go there");
   command
       ->add_option("--picture", arguments->picture,
                    "With --dry-run, a picture (PNG) of what the scanner sees of the first case")

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -142,10 +143,17 @@ void learn_for_links(const LearnArguments& arguments) {
   if (arguments.json) print_json_line(json);
 }
 
+std::vector<std::string> recipes_of(const std::vector<std::string>& datasets) {
+  std::vector<std::string> files;
+  for (const std::string& directory : datasets)
+    files.push_back((std::filesystem::path(directory) / recipe_name).string());
+  return files;
+}
+
 void learn(const LearnArguments& arguments) {
   if (arguments.confidence && arguments.out)
     throw InputError({"", 0, "--out"}, "a profile has the weights of links, not of --confidence");
-  expect_outputs(outputs(arguments));
+  expect_outputs(outputs(arguments), recipes_of(arguments.datasets));
   for (const std::string& directory : arguments.datasets) expect_dataset(directory);
   arguments.confidence ? learn_for_tubes(arguments) : learn_for_links(arguments);
 }

@@ -128,6 +128,8 @@ int main(int argc, char** argv) {
   keep_freed_memory();
   // If the reader of the output exits, this program goes on: it does more than print.
   std::signal(SIGPIPE, SIG_IGN);
+  // A file that may not grow (ulimit -f) is an error as a full disk is.
+  std::signal(SIGXFSZ, SIG_IGN);
   const int status = run_and_explain(argc, argv);
   if (!is_output_lost()) return status;
   return explain("standard output: cannot write all output", exit_refused);

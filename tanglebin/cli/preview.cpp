@@ -23,7 +23,7 @@ namespace {
 constexpr const char* example = R"(Example:
   tanglebin preview dataset/A10/tube_configurations/1.txt --scene dataset --out pile.png
   tanglebin preview dataset/A10/plys/1.ply --azimuth-deg 30 --elevation-deg 60 --out cloud.png
-Around a configuration, the bin of --scene is drawn.)";
+Around tubes, the bin of --scene is drawn; without --scene, none.)";
 
 struct Options {
   std::string input;
@@ -50,7 +50,7 @@ Picture draw(const CloudOrTubes& input, const Options& options) {
 }
 
 void run(const Options& options) {
-  expect_outputs({{"--out", options.out, {".png"}}});
+  expect_outputs({{"--out", options.out, {".png"}}}, {options.input});
   const Picture picture = draw(read_cloud_or_tubes(options.input), options);
   write_output(options.out, color_png(picture.width, picture.height, picture.pixels));
 }
@@ -62,15 +62,17 @@ void add_preview(CLI::App& app) {
   CLI::App* command = app.add_subcommand("preview", "Draw a tube configuration or a point cloud");
   command
       ->add_option("input", options->input,
-                   "Configuration (.txt) or cloud (.ply, .pcd); - for standard input")
+                   "Tubes (configuration or tubes.json) or cloud (.ply, .pcd); - for standard input")
       ->required();
   command->add_option("--out", options->out, "Picture to write (.png); - for standard output")->required();
-  command->add_option("--azimuth-deg", options->azimuth_deg, "Direction of the viewer, from +x towards +y")
+  command
+      ->add_option("--azimuth-deg", options->azimuth_deg,
+                   "Where the viewer is, in degrees: 0 towards +x, 90 towards +y")
       ->check(finite_number())
       ->capture_default_str();
   command
       ->add_option("--elevation-deg", options->elevation_deg,
-                   "Elevation of the viewer above the horizontal, -90 to 90")
+                   "How high the viewer is, in degrees: 0 at the side, 90 straight above")
       ->check(finite_number())
       ->capture_default_str();
   command->add_option("--width", options->width, "Width of the picture, pixels")

@@ -17,7 +17,7 @@ struct ReportArguments {
 };
 
 void write_report(const ReportArguments& arguments) {
-  expect_outputs({{"--out", arguments.out, {".html"}}});
+  expect_outputs({{"--out", arguments.out, {".html"}}}, {arguments.results});
   write_output(arguments.out, report_page(read_results_directory(arguments.results), arguments.out));
 }
 

@@ -166,10 +166,16 @@ std::optional<Scanner> own_scanner(const ScanArguments& arguments) {
   return own ? std::optional(scanner_with(*own, arguments.parameters, "--parameter")) : std::nullopt;
 }
 
+Scanner preset_scanner(const ScanArguments& arguments) {
+  const std::string preset = arguments.scanner.value_or("paper");
+  with_place({"", 0, "--scanner"}, [&] { return camera_preset(preset); });
+  return scanner_with(preset, arguments.parameters, "--parameter");
+}
+
 Setting setting_of(const ScanArguments& arguments) {
   Setting setting{
-      .scanner = scanner_with(arguments.scanner.value_or("paper"), arguments.parameters, "--parameter"),
-      .support = {.bin = bin_preset(arguments.bin)}};
+      .scanner = preset_scanner(arguments),
+      .support = {.bin = with_place({"", 0, "--bin"}, [&] { return bin_preset(arguments.bin); })}};
   if (arguments.scene) {
     const Scene scene = scene_named(*arguments.scene, arguments.configuration);
     setting.support = scene.support.value_or(Support{.shape = Support::Shape::nothing});
@@ -187,7 +193,7 @@ Setting setting_of(const ScanArguments& arguments) {
 }
 
 void scan_configuration(const ScanArguments& arguments) {
-  expect_outputs(outputs(arguments));
+  expect_outputs(outputs(arguments), {arguments.configuration});
   const auto [scanner, support] = setting_of(arguments);
   const std::uint64_t seed = seed_of(arguments);
   const std::vector<Tube> tubes =

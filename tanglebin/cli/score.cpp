@@ -181,9 +181,10 @@ void add_score(CLI::App& app) {
   labelled->needs(truth);
   CLI::Option* true_tubes =
       command->add_option("--true-tubes", arguments->true_tubes,
-                          "Configuration of the true tubes, to score --modelled-tubes against");
-  CLI::Option* tubes = command->add_option("--modelled-tubes", arguments->tubes,
-                                           "Configuration of the modelled tubes, to score them too");
+                          "True tubes (configuration or tubes.json), to score --modelled-tubes against");
+  CLI::Option* tubes =
+      command->add_option("--modelled-tubes", arguments->tubes,
+                          "Tubes that were found (configuration or tubes.json), to score them too");
   true_tubes->needs(tubes)->needs(truth);
   tubes->needs(true_tubes);
   command->add_flag("--json", arguments->json, "Print the score as JSON");
@@ -192,7 +193,7 @@ void add_score(CLI::App& app) {
                  "Also print the confusion matrix: points of each tube by label")
       ->excludes(dataset);
   command->footer(
-      "If a cloud has no labels, each of its colours counts as a label, and black as null.\n\n"
+      "If a cloud has no labels, each of its colours counts as a label, and black as none (null).\n\n"
       "Example:\n  tanglebin score --truth dataset/A10/plys/1.ply --labelled labelled.ply\n"
       "  tanglebin score dataset labels\n"
       "Measures: docs/metrics.md. Scoring your own algorithm: docs/scoring.md.");

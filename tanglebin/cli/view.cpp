@@ -114,7 +114,7 @@ ViewedScene scene_of(const ViewArguments& arguments) {
 }
 
 void view(const ViewArguments& arguments) {
-  expect_outputs({{"--out", arguments.out, {".html"}}});
+  expect_outputs({{"--out", arguments.out, {".html"}}}, {arguments.input});
   write_output(arguments.out, view_page(scene_of(arguments)));
 }
 

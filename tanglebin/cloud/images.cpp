@@ -19,6 +19,11 @@ void check_size(const DepthImage& image, const Intrinsics& camera) {
                                is_transposed ? "; is this one transposed?" : ""));
 }
 
+void expect_focal_length(const char* field, double pixels) {
+  if (!std::isfinite(pixels) || pixels <= 0)
+    throw InputError({"", 0, field}, fmt::format("{}", pixels), "a positive number of pixels");
+}
+
 // The coordinate, at depth 1, of the pixels of a row or a column.
 std::vector<double> slopes(int pixels, double focal_length, double principal_point) {
   std::vector<double> result;
@@ -35,6 +40,8 @@ float measured_depth(float depth) {
 
 PointCloud cloud_from_depths(const DepthImage& image, const Intrinsics& intrinsics) {
   check_size(image, intrinsics);
+  expect_focal_length("fx", intrinsics.fx);
+  expect_focal_length("fy", intrinsics.fy);
   const std::vector<double> across = slopes(image.width, intrinsics.fx, intrinsics.cx);
   const std::vector<double> down = slopes(image.height, intrinsics.fy, intrinsics.cy);
   PointCloud cloud;

@@ -35,13 +35,6 @@ void expect_dataset_or_empty(const fs::path& directory) {
                    "a dataset or an empty directory");
 }
 
-// Expects a directory that is missing, empty or has a dataset of this recipe.
-void expect_free(const fs::path& directory, const Recipe& recipe) {
-  if (!fs::exists(directory)) return;
-  expect_dataset_or_empty(directory);
-  if (fs::exists(directory / recipe_name)) expect_same_recipe(directory, recipe);
-}
-
 // Writes the directory's recipe, or expects it to be the same.
 void claim(const fs::path& directory, const Recipe& recipe, const fs::path& staging) {
   const fs::path file = directory / recipe_name;
@@ -285,9 +278,16 @@ FileRecord CaseWriter::write(const std::string& path, std::string_view bytes) co
   return {path, bytes.size(), sha256(bytes)};
 }
 
+void expect_fillable(const fs::path& directory, const Recipe& recipe) {
+  expect_no_file_in_the_way(directory);
+  if (!fs::exists(directory)) return;
+  expect_dataset_or_empty(directory);
+  if (fs::exists(directory / recipe_name)) expect_same_recipe(directory, recipe);
+}
+
 FillSummary fill_dataset(const FillRequest& request, const MakeCase& make, const RunObserver& observer) {
   validate_jobs(request.jobs);
-  expect_free(request.directory, request.recipe);
+  expect_fillable(request.directory, request.recipe);
   make_directories(request.directory);
   return Filling(request, make, observer).run();
 }

@@ -77,6 +77,10 @@ struct FillSummary {
   bool was_stopped() const { return progress.found + progress.made + progress.failed < progress.wanted; }
 };
 
+/// Throws InputError unless the directory can be made, is empty or has a dataset of this recipe. Makes
+/// nothing.
+void expect_fillable(const std::filesystem::path& directory, const Recipe& recipe);
+
 /// Makes the wanted cases that are missing in the directory, in worker processes, and writes recipe.toml,
 /// manifest.jsonl, times.jsonl, failed.jsonl and dataset.json (docs/formats.md). Before the observer hears of
 /// a case, its files and its line in the run's journal are on the disk: whatever ends the run, the next one

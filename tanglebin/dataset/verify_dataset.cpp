@@ -67,6 +67,7 @@ public:
     for (const CaseId& id : all) state_.try_emplace(id);
     for (const CaseId& id : settings.wanted.value_or(all)) state_.at(id).is_wanted = true;
     read_manifest();
+    read_times_and_failures();
     lock_.reset();
   }
 
@@ -103,28 +104,43 @@ private:
   // Without journals, the files that list the cases are complete.
   bool is_sealed() const { return journals_.empty(); }
 
-  void read_manifest() {
-    const fs::path file = directory_ / manifest_name;
-    if (is_sealed() && !fs::exists(file)) add(manifest_name, "missing");
-    Digest digest;
+  // Calls `take` with each line and its place. A line that it throws an InputError for is a fault.
+  template <typename Take>
+  void read_lines(const std::string& name, const Take& take) {
     std::uintmax_t whole = 0;
-    for_each_whole_line(file, [&](const std::string& line, std::size_t number) {
-      const std::string where = fmt::format("{}:{}", manifest_name, number);
+    for_each_whole_line(directory_ / name, [&](const std::string& line, std::size_t number) {
+      const std::string where = fmt::format("{}:{}", name, number);
       try {
-        const CaseRecord record = case_record(line, where, 0);
-        digest.add(record);
-        read_record(record, where);
+        take(line, where);
       } catch (const InputError& error) {
         add(where, complaint_of(error));
       }
       whole += line.size() + 1;
     });
     std::error_code none;
-    if (const std::uintmax_t size = fs::file_size(file, none); !none && size > whole) {
-      add(manifest_name, fmt::format("{} bytes after the last line", size - whole));
+    if (const std::uintmax_t size = fs::file_size(directory_ / name, none); !none && size > whole) {
+      add(name, fmt::format("{} bytes after the last line", size - whole));
     }
-    if (is_sealed() && !fs::exists(directory_ / times_name)) add(times_name, "missing");
+  }
+
+  void read_manifest() {
+    if (is_sealed() && !fs::exists(directory_ / manifest_name)) add(manifest_name, "missing");
+    Digest digest;
+    read_lines(manifest_name, [&](const std::string& line, const std::string& where) {
+      const CaseRecord record = case_record(line, where, 0);
+      digest.add(record);
+      read_record(record, where);
+    });
     summary_.digest = digest.hex();
+  }
+
+  // What they say of the cases is for the reader; here they must only be readable.
+  void read_times_and_failures() {
+    if (is_sealed() && !fs::exists(directory_ / times_name)) add(times_name, "missing");
+    read_lines(times_name,
+               [](const std::string& line, const std::string& where) { times_record(line, where, 0); });
+    read_lines(failed_name,
+               [](const std::string& line, const std::string& where) { failed_case(line, where, 0); });
   }
 
   void read_journals() {

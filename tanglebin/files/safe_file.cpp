@@ -178,18 +178,6 @@ std::unique_ptr<StagedFile> staged_beside(fs::path file, std::string_view bytes)
   return staged;
 }
 
-/// The existing part of the path that is not a directory; empty if there is none.
-fs::path obstacle(const fs::path& directory) {
-  fs::path part;
-  for (const fs::path& name : directory) {
-    part /= name;
-    std::error_code ignored;
-    const fs::file_status status = fs::status(part, ignored);
-    if (fs::exists(status) && !fs::is_directory(status)) return part;
-  }
-  return {};
-}
-
 }  // namespace
 
 std::error_code last_error() {
@@ -221,6 +209,17 @@ void write_files(const std::vector<std::pair<std::filesystem::path, std::string>
   }
 }
 
+void expect_no_file_in_the_way(const std::filesystem::path& directory) {
+  fs::path part;
+  for (const fs::path& name : directory) {
+    part /= name;
+    std::error_code ignored;
+    const fs::file_status status = fs::status(part, ignored);
+    if (fs::exists(status) && !fs::is_directory(status))
+      throw InputError({part.string(), 0, ""}, "a file", "a directory");
+  }
+}
+
 void make_directories(const std::filesystem::path& directory) {
   std::error_code error;
   if (fs::is_directory(directory, error)) return;
@@ -234,10 +233,7 @@ void make_directories(const std::filesystem::path& directory) {
     for (const fs::path& parent : changed) sync_directory(parent);
     return;
   }
-  const fs::path blocked = obstacle(directory);
-  if (!blocked.empty()) {
-    throw InputError({.file = blocked.string(), .line = 0, .field = {}}, "a file", "a directory");
-  }
+  expect_no_file_in_the_way(directory);
   throw_refusal(directory, "cannot make the directory", error);
 }
 

@@ -29,6 +29,9 @@ void write_file(const std::filesystem::path& file, std::string_view bytes);
 /// of all are on disk, so if one cannot be written, all stay as they were.
 void write_files(const std::vector<std::pair<std::filesystem::path, std::string>>& files);
 
+/// Throws InputError naming the existing part of a directory's path that is a file, if there is one.
+void expect_no_file_in_the_way(const std::filesystem::path& directory);
+
 /// Creates a directory and its missing parents, and waits until their names are on disk. Throws InputError
 /// naming a file that is in the way, and otherwise as throw_refusal() does.
 void make_directories(const std::filesystem::path& directory);

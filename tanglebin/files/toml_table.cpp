@@ -135,15 +135,14 @@ void TomlTable::allow(const std::vector<std::string_view>& known) const {
 
 void TomlTable::require(std::initializer_list<std::string_view> keys) const {
   for (const std::string_view key : keys)
-    if (!has(key)) throw InputError({file(), line(key), path_of(key)}, "is missing");
+    if (!has(key)) throw InputError(place(key), "is missing");
 }
 
 void TomlTable::allow_one_of(std::initializer_list<std::string_view> keys) const {
   std::string_view first;
   for (const std::string_view key : keys) {
     if (!has(key)) continue;
-    if (!first.empty())
-      throw InputError({file(), line(key), path_of(key)}, fmt::format("cannot be combined with {}", first));
+    if (!first.empty()) throw InputError(place(key), fmt::format("cannot be combined with {}", first));
     first = key;
   }
 }
@@ -233,7 +232,7 @@ std::size_t TomlTable::line(std::string_view key) const {
 }
 
 void TomlTable::fail(std::string_view key, const std::string& found, const std::string& expected) const {
-  throw InputError({file(), line(key), path_of(key)}, found, expected);
+  throw InputError(place(key), found, expected);
 }
 
 std::optional<TomlTable::Value> TomlTable::value_of(std::string_view key) const {

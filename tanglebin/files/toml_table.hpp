@@ -62,16 +62,6 @@ toml::table parse_toml(const std::string& text, const std::string& name);
 /// innermost table around it, to its InputError.
 void validate_at(const TomlSource& source, const std::function<void()>& call);
 
-/// Calls `call`, which looks up what a key's value names, and adds file and line to its InputError.
-template <typename Call>
-auto with_place(const std::string& file, std::size_t line, Call call) {
-  try {
-    return call();
-  } catch (const InputError& error) {
-    throw InputError({file, line, ""}, error.what());
-  }
-}
-
 /// Reads a table of a TOML tree strictly: every error is an InputError with the file, the line and the key's
 /// whole path. Refers to the source and the tree; they must outlive it.
 class TomlTable {
@@ -126,6 +116,9 @@ public:
 
   /// Where a key's value begins; for a missing key, where the table begins.
   std::size_t line(std::string_view key) const;
+
+  /// Of a key's value, for messages.
+  InputPlace place(std::string_view key) const { return {file(), line(key), path_of(key)}; }
 
   [[noreturn]] void fail(std::string_view key, const std::string& found, const std::string& expected) const;
 

@@ -64,10 +64,19 @@ public:
                                                         "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
     const std::string keyword(words.front());
     if (std::ranges::find(keywords, keyword) == keywords.end()) {
+      expect_no_toml(input, words);
       throw InputError(input.place(), excerpt(keyword), fmt::format("one of {}", fmt::join(keywords, ", ")));
     }
     if (has(keyword)) throw InputError(input.place(keyword), "given twice");
     entries_[keyword] = {input.line(), {words.begin() + 1, words.end()}};
+  }
+
+  // Recipes and scene files begin with # too.
+  void expect_no_toml(const CloudInput& input, const std::vector<std::string_view>& words) const {
+    const bool is_table = words.front().starts_with('[');
+    const bool is_key = words.size() > 1 && words[1].starts_with('=');
+    if (entries_.empty() && (is_table || is_key))
+      throw InputError(input.place(), "TOML, as in a recipe or a scene file", "a cloud: a PLY or PCD file");
   }
 
   bool has(const std::string& keyword) const { return entries_.contains(keyword); }

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <concepts>
+#include <ranges>
 #include <type_traits>
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/suggestion.hpp"
 #include "tanglebin/base/text.hpp"
 
 namespace tanglebin {
@@ -289,6 +291,14 @@ void set(Value& parameter, double value, const Declaration& of) {
   parameter = static_cast<Value>(value);
 }
 
+[[noreturn]] void reject(std::string_view name, const std::map<std::string, double>& known) {
+  const auto views = std::views::keys(known);
+  if (const auto nearest = nearest_name(name, {views.begin(), views.end()}))
+    throw InputError({"", 0, ""},
+                     fmt::format("found {}, did you mean {}?", excerpt(name), excerpt(*nearest)));
+  throw InputError({"", 0, ""}, excerpt(name), fmt::format("a parameter listed in {}", list_of_parameters));
+}
+
 }  // namespace
 
 std::map<std::string, double> parameters(const ModelSettings& settings) {
@@ -322,8 +332,7 @@ void set_parameter(ModelSettings& settings, std::string_view name, double value)
     is_known = true;
     set(parameter, value, known);
   });
-  if (!is_known)
-    throw InputError({"", 0, ""}, excerpt(name), fmt::format("a parameter listed in {}", list_of_parameters));
+  if (!is_known) reject(name, parameters(settings));
 }
 
 void set_parameter(ModelSettings& settings, std::string_view assignment, const std::string& option) {

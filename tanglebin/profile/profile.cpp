@@ -43,7 +43,7 @@ double read_parameter(const TomlSource& source, const std::string& name, const t
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
   if (!value) throw InputError({source.file(), source.line(name), name}, description(node), "a number");
   ModelSettings any;
-  with_place(source.file(), source.line(name), [&] { set_parameter(any, name, *value); });
+  with_place({source.file(), source.line(name)}, [&] { set_parameter(any, name, *value); });
   return *value;
 }
 
@@ -51,7 +51,7 @@ std::optional<Method> read_method(const TomlTable& root) {
   if (!root.has(method_key)) return std::nullopt;
   std::string name;
   root.get(method_key, name);
-  return with_place(root.file(), root.line(method_key), [&] { return method_named(name); });
+  return with_place({root.file(), root.line(method_key)}, [&] { return method_named(name); });
 }
 
 void get_positive(const TomlTable& table, std::string_view key, auto& value) {

@@ -31,9 +31,13 @@ std::string toml_line(const std::string& setting) {
   return is_string ? fmt::format("{} = {:?}", setting.substr(0, middle), value) : setting;
 }
 
-std::string text_of(const std::vector<std::string>& settings) {
+std::string text_of(const std::vector<std::string>& settings, const std::string& option) {
   std::string text;
-  for (const std::string& setting : settings) text += toml_line(setting) + '\n';
+  for (const std::string& setting : settings) {
+    if (setting.find('=') == std::string::npos)
+      throw InputError({"", 0, option}, excerpt(setting), "NAME=VALUE, such as scanner.baseline=0.3");
+    text += toml_line(setting) + '\n';
+  }
   return text;
 }
 
@@ -119,12 +123,12 @@ Recipe read_random(const toml::table& tree, const std::vector<PlacedNumber>& num
 Scanner scanner_with(const std::string& preset, const std::vector<std::string>& settings,
                      const std::string& option) {
   const std::string of_preset = fmt::format("scanner.preset = {:?}\n", preset);
-  return scanner_from(text_of(settings) + of_preset, option, read_single_scanner);
+  return scanner_from(text_of(settings, option) + of_preset, option, read_single_scanner);
 }
 
 Scanner scanner_with(const Scanner& scanner, const std::vector<std::string>& settings,
                      const std::string& option) {
-  return scanner_from(text_of(settings), option, [&](const TomlTable& table) {
+  return scanner_from(text_of(settings, option), option, [&](const TomlTable& table) {
     table.allow(scanner_setting_keys());
     return with_settings(scanner, table);
   });

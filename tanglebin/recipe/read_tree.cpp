@@ -32,7 +32,7 @@ Bin read_bin(const TomlTable& table) {
   table.allow(all({{"preset"}, keys(bin_fields)}));
   std::string preset = "paper";
   table.get("preset", preset);
-  Bin bin = with_place(table.file(), table.line("preset"), [&] { return bin_preset(preset); });
+  Bin bin = with_place(table.place("preset"), [&] { return bin_preset(preset); });
   read_fields(table, bin_fields, bin);
   return bin;
 }
@@ -44,7 +44,7 @@ Keys scanner_keys() {
 Scanner read_scanner(const TomlTable& table) {
   std::string name = "paper";
   table.get("preset", name);
-  const Camera camera = with_place(table.file(), table.line("preset"), [&] { return camera_preset(name); });
+  const Camera camera = with_place(table.place("preset"), [&] { return camera_preset(name); });
   return with_settings({"", camera, sensor_preset(name)}, table);
 }
 

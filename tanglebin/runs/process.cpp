@@ -112,7 +112,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ, SIGCHLD}) std::signal(signal, SIG_DFL);
   dup2(in.number(), STDIN_FILENO);
   dup2(out.to.number(), STDOUT_FILENO);
   dup2(err.to.number(), STDERR_FILENO);

@@ -54,14 +54,14 @@ SceneCamera read_file_of_camera(const TomlTable& table, const std::filesystem::p
   int number = image.value_or(0);
   table.get("image", number);
   if (table.has("image")) image = number;
-  return with_place(table.file(), table.line("file"),
+  return with_place({table.file(), table.line("file")},
                     [&] { return read_camera_file(directory / file, image); });
 }
 
 SceneCamera read_preset(const TomlTable& table) {
   std::string name;
   table.get("preset", name);
-  const Camera preset = with_place(table.file(), table.line("preset"), [&] { return camera_preset(name); });
+  const Camera preset = with_place(table.place("preset"), [&] { return camera_preset(name); });
   Camera camera = preset;
   read_camera_intrinsics(table, preset, camera);
   return {.intrinsics = intrinsics_of(camera), .pose = camera.pose};
@@ -164,7 +164,7 @@ Bin read_bin(const TomlTable& table) {
   std::string preset;
   table.get("preset", preset);
   if (table.has("preset")) {
-    bin = with_place(table.file(), table.line("preset"), [&] { return bin_preset(preset); });
+    bin = with_place(table.place("preset"), [&] { return bin_preset(preset); });
   } else {
     table.require({"length", "width", "height"});
   }

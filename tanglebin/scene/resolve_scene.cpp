@@ -32,7 +32,7 @@ double unit_of(const Scene& scene, const PointCloud& cloud, Notes& notes) {
   const std::optional<double> size = extent(cloud);
   if (!size || (*size >= smallest && *size <= largest)) return 1;
   if (*size >= 5 * largest && *size <= largest / millimetre) {
-    notes.push_back(fmt::format("the cloud is {:.4g} wide, which are taken for millimetres", *size));
+    notes.push_back(fmt::format("the cloud is {:.4g} wide; its numbers are taken for millimetres", *size));
     return millimetre;
   }
   throw InputError({"", 0, "unit"}, fmt::format("points within {:.4g} of each other", *size),

@@ -131,5 +131,17 @@ TEST_F(FullDisk, EndsAnExperimentWhichGoesOnWhenThereIsSpace) {
   }
 }
 
+// A file that may not be larger than so many blocks, as a cluster's limit has it.
+TEST(FileSizeLimit, IsAnErrorAsAFullDiskIs) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "recipe.toml",
+              test::recipe_text({.seed = 6, .width = 192, .tubes = "[1]", .cases = 1}));
+  const ProgramResult result =
+      test::run_shell("ulimit -f 4; " TANGLEBIN_PROGRAM " generate " + (directory / "recipe.toml").string() +
+                      " --jobs 1 --out " + (directory / "dataset").string());
+  EXPECT_EQ(result.status, 5);
+  EXPECT_THAT(result.err, HasSubstr("cannot write: File too large"));
+}
+
 }  // namespace
 }  // namespace tanglebin

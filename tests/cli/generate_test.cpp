@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -141,6 +142,24 @@ TEST_F(Generate, RefusesTheSameWithAndWithoutADryRun) {
     EXPECT_THAT(said("position = [3, 0, 1]\nlook_at = [5, 0, 3]", options),
                 HasSubstr("expected one that has the bin in its view"));
   }
+}
+
+TEST_F(Generate, ADryRunNamesAnOutputThatTheRunWouldNot) {
+  const auto said = [&](const std::string& place) {
+    std::string messages;
+    for (const char* const dry : {" --dry-run", ""}) {
+      const auto result = run_program("generate " + recipe_.string() + dry + " --out " + place);
+      EXPECT_EQ(result.status, 2) << place << dry;
+      EXPECT_EQ(messages.empty() ? result.err : messages, result.err);
+      messages = result.err;
+    }
+    return messages;
+  };
+  std::filesystem::create_directory(directory_ / "results");
+  write_bytes(directory_ / "results/experiment.json", "{}");
+  EXPECT_THAT(said(out("results")), HasSubstr("found the results of an experiment, expected a dataset or"));
+  EXPECT_THAT(said(recipe_.string() + "/dataset"), HasSubstr("recipe.toml: found a file, expected a direct"));
+  EXPECT_EQ(files_below(directory_.path()).size(), 2U);
 }
 
 TEST_F(Generate, NeedsADirectoryUnlessItIsADryRun) {

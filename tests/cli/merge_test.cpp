@@ -69,9 +69,20 @@ TEST_F(Merge, BadInputIsExitStatusTwoAndOneLine) {
 }
 
 TEST_F(Merge, DoesNotMergeIntoAPart) {
-  const ProgramResult result = run_program("merge " + path("part1") + " --out " + path("part1/"));
-  EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("part1/', an input, expected another name"));
+  const std::string manifest = test::bytes_of(path("part1/manifest.jsonl"));
+  for (const std::string& out : {path("part1"), path("part1") + "/", path("./part1")}) {
+    const ProgramResult result =
+        run_program("merge " + path("part2") + " " + path("part1") + " --out " + out);
+    EXPECT_EQ(result.status, 2) << out;
+    EXPECT_THAT(result.err,
+                HasSubstr("--out: found '" + out + "', which is also an input, expected another"));
+  }
+  for (const std::string command : {"experiment ", "export --format coco "}) {
+    const ProgramResult result = run_program(command + path("part1") + " --out " + path("part1"));
+    EXPECT_EQ(result.status, 2) << command;
+    EXPECT_THAT(result.err, HasSubstr("which is also an input"));
+  }
+  EXPECT_EQ(test::bytes_of(path("part1/manifest.jsonl")), manifest);
 }
 
 TEST_F(Merge, HelpHasAnExample) {

@@ -210,13 +210,26 @@ TEST_F(ModelCommand, LeavesNothingBehindWhereAnOutputCannotBeWritten) {
   }
 }
 
+// By whatever path.
 TEST_F(ModelCommand, DoesNotOverwriteItsInput) {
-  std::filesystem::create_symlink(path("scan.ply"), path("link.ply"));
-  for (const std::string name : {"scan.ply", "./scan.ply", "link.ply"}) {
-    const ProgramResult result = run_program("model " + path("scan.ply") + " --out " + path(name));
-    EXPECT_EQ(result.status, 2);
-    EXPECT_THAT(result.err, HasSubstr("--out: found '" + path(name) + "', an input, expected another name"));
+  std::filesystem::create_symlink("scan.ply", directory_ / "link.ply");
+  write("scene.toml", "");
+  const std::string before = test::bytes_of(path("scan.ply"));
+  for (const std::string out : {"scan.ply", "./scan.ply", "link.ply"}) {
+    const ProgramResult run = run_program("model " + path("scan.ply") + paper + " --out " + path(out));
+    EXPECT_EQ(run.status, 2) << out;
+    EXPECT_THAT(run.err,
+                HasSubstr("--out: found '" + path(out) + "', which is also an input, expected another name"));
   }
+  const ProgramResult mesh = model("scan.ply", "--mesh " + path("link.ply"));
+  EXPECT_EQ(mesh.status, 2);
+  EXPECT_THAT(mesh.err, HasSubstr("--mesh: found '"));
+  const std::string scene = path("scene.toml");
+  const ProgramResult located =
+      run_program("locate " + path("scan.ply") + " --scene " + scene + " --out " + scene);
+  EXPECT_EQ(located.status, 2);
+  EXPECT_THAT(located.err, HasSubstr("which is also an input"));
+  EXPECT_EQ(test::bytes_of(path("scan.ply")), before);
 }
 
 TEST_F(ModelCommand, RefusesWhatItCannotModel) {

@@ -132,6 +132,11 @@ TEST_F(ScanCommand, NamesTheSettingThatIsWrong) {
   EXPECT_THAT(
       said("--parameter scanner.sigma=0.1 --parameter scanner.baseline=0"),
       HasSubstr("--parameter:2: scanner.baseline: found 0, expected a distance in metres other than 0"));
+  EXPECT_THAT(said("--parameter scanner.sigma"),
+              HasSubstr("--parameter: found 'scanner.sigma', expected NAME=VALUE, such as scanner.base"));
+  EXPECT_THAT(said("--scanner zivid"),
+              HasSubstr("--scanner: found 'zivid', did you mean 'zivid-one-plus-l'?"));
+  EXPECT_THAT(said("--bin papers"), HasSubstr("--bin: found 'papers', did you mean 'paper'?"));
   EXPECT_THAT(said("--parameter scanner.snr=-1"), HasSubstr("scanner.snr: found -1"));
   EXPECT_THAT(said("--parameter scanner.focal_length_px=0"), HasSubstr("scanner.focal_length_px: found 0"));
   EXPECT_THAT(said("--parameter scanner.edges=blur"), HasSubstr("\"keep\", \"drop\" or \"mix\""));

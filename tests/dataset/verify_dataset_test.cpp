@@ -327,6 +327,20 @@ TEST_F(VerifyDataset, FindsAndRepairsBytesAfterTheLastLineAndMissingTimes) {
   expect_repair();
 }
 
+TEST_F(VerifyDataset, FindsAndRepairsDamagedTimesAndFailures) {
+  std::ofstream(path("times.jsonl"), std::ios::app) << "garbage\n";
+  std::ofstream(path("failed.jsonl")) << std::string("\0{}", 3) << "\ntorn";
+  EXPECT_THAT(faults(), ElementsAre("failed.jsonl: 4 bytes after the last line",
+                                    HasSubstr("failed.jsonl:1: "), HasSubstr("times.jsonl:7: ")));
+  expect_repair();
+}
+
+TEST_F(VerifyDataset, FindsADirectoryInThePlaceOfAFile) {
+  fs::remove(path("A1/plys/2.ply"));
+  fs::create_directory(path("A1/plys/2.ply"));
+  EXPECT_THAT(faults(), ElementsAre("A1/plys/2.ply: cannot be opened: Is a directory"));
+}
+
 TEST_F(VerifyDataset, FindsAndRepairsASeedThatIsNotTheCases) {
   replace_in("manifest.jsonl", "\"seed\":\"", "\"seed\":\"0");
   const std::string manifest = bytes_of(path("manifest.jsonl"));

@@ -34,7 +34,7 @@ TEST(Bin, AnUnknownPresetIsNamedTogetherWithTheKnownOnes) {
     bin_preset("bucket");
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "bin: found 'bucket', expected paper or published");
+    EXPECT_STREQ(error.what(), "found 'bucket', expected one of paper, published");
   }
 }
 

@@ -49,7 +49,7 @@ TEST(Camera, AnUnknownPresetIsNamedTogetherWithTheKnownOnes) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "scanner: found 'eye', expected paper, gaussian, zivid-one-plus-l, kinect-v1 or phoxi");
+                 "found 'eye', expected one of paper, gaussian, zivid-one-plus-l, kinect-v1, phoxi");
   }
 }
 

@@ -295,6 +295,10 @@ TEST(ReadPcd, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(complaint_about("ply\n"),
             "cloud.pcd:1: found 'ply', expected one of VERSION, FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, "
             "VIEWPOINT, POINTS, DATA");
+  for (const std::string line : {"seed = 1", "[camera]"}) {
+    EXPECT_EQ(complaint_about("# A recipe\n" + line + "\n"),
+              "cloud.pcd:2: found TOML, as in a recipe or a scene file, expected a cloud: a PLY or PCD file");
+  }
   EXPECT_EQ(complaint_about("VERSION 0.7\nVERSION 0.7\n"), "cloud.pcd:2: VERSION: given twice");
   EXPECT_EQ(complaint_about("VERSION 0.7\nDATA ascii\n"), "cloud.pcd: header has no WIDTH");
   EXPECT_EQ(complaint_about("VERSION 0.5\nDATA ascii\n"),

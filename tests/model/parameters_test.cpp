@@ -103,8 +103,10 @@ TEST(Parameters, ThatAreWeightsAreThoseInTheManual) {
 TEST(Parameters, SayWhatTheyCannotTake) {
   EXPECT_THAT(complaint("axis.fit.tolerance"),
               HasSubstr("--parameter: found 'axis.fit.tolerance', expected NAME=VALUE"));
-  EXPECT_THAT(complaint("axis.fit.magic=1"),
-              HasSubstr("found 'axis.fit.magic', expected a parameter listed in"));
+  EXPECT_THAT(complaint("axis.magic.number=1"),
+              HasSubstr("found 'axis.magic.number', expected a parameter listed in"));
+  EXPECT_THAT(complaint("axis.fit.tolerence=1"),
+              HasSubstr("--parameter: found 'axis.fit.tolerence', did you mean 'axis.fit.tolerance'?"));
   EXPECT_THAT(complaint("axis.fit.tolerance=much"), HasSubstr("found 'much', expected a number"));
   EXPECT_THAT(complaint("axis.fit.tolerance=-1"),
               HasSubstr("--parameter axis.fit.tolerance: found -1, expected a number from 0.001 to 100"));

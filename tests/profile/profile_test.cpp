@@ -135,8 +135,9 @@ TEST(Profile, SaysWhichLineIsWrong) {
   EXPECT_THAT(complaint_about("axis.vote.floor_margin = 0.4\n"), HasSubstr("profile.toml"));
   EXPECT_THAT(complaint_about("axis.vote.floor_margin = 0.4\n"), HasSubstr("format: is missing"));
   EXPECT_THAT(complaint_about("format = 2\n"), HasSubstr("profile.toml:1: format: found 2, expected 1"));
-  EXPECT_THAT(complaint_about("format = 1\naxis.vote.flor_margin = 0.4\n"),
-              HasSubstr("profile.toml:2: found 'axis.vote.flor_margin', expected a parameter listed in"));
+  EXPECT_THAT(
+      complaint_about("format = 1\naxis.vote.flor_margin = 0.4\n"),
+      HasSubstr("profile.toml:2: found 'axis.vote.flor_margin', did you mean 'axis.vote.floor_margin'?"));
   EXPECT_THAT(complaint_about("format = 1\naxis.vote.floor_margin = \"much\"\n"),
               HasSubstr("profile.toml:2: axis.vote.floor_margin: found 'much', expected a number"));
   EXPECT_THAT(complaint_about("format = 1\naxis.vote.floor_margin = [0.4]\n"),

@@ -227,7 +227,7 @@ TEST_F(ToldScene, PointsThatAreNotThereDoNotCount) {
   points.colors.clear();
   const ResolvedScene resolved = resolve(with_camera(whole_camera()), in_millimetres(points));
   EXPECT_EQ(resolved.cloud.points.size(), points.points.size());
-  EXPECT_THAT(resolved.notes, Contains(HasSubstr("millimetres")));
+  EXPECT_THAT(resolved.notes, Contains(HasSubstr(" wide; its numbers are taken for millimetres")));
 }
 
 TEST_F(ToldScene, PointsWhereTheSensorIsWereNotMeasured) {

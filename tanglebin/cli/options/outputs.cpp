@@ -28,7 +28,7 @@ bool is_device_or_pipe(const std::string& file) {
   return fs::is_other(fs::status(file, error));
 }
 
-// The same for every name of a file: "x.ply", "./x.ply".
+// The same for every name of a file or a directory: "x.ply", "./x.ply".
 std::string place_of(const std::string& file) {
   if (file == standard_stream) return file;
   std::error_code error;
@@ -38,11 +38,12 @@ std::string place_of(const std::string& file) {
 
 }  // namespace
 
-void expect_outputs(const std::vector<Output>& outputs) {
+void expect_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs) {
   std::set<std::string> places;
   for (const auto& [option, file, extensions] : outputs) {
     if (!places.insert(place_of(file)).second)
       throw InputError({"", 0, option}, excerpt(file) + " twice", "different files");
+    expect_no_input(option, file, inputs);
     if (file == standard_stream || is_device_or_pipe(file)) continue;
     if (std::ranges::find(extensions, extension_of(file)) == extensions.end())
       throw InputError({"", 0, option}, excerpt(file),
@@ -52,10 +53,12 @@ void expect_outputs(const std::vector<Output>& outputs) {
 
 void expect_no_input(const std::string& option, const std::string& output,
                      const std::vector<std::string>& inputs) {
-  if (output == standard_stream) return;
-  const auto is_output = [&](const std::string& input) { return place_of(input) == place_of(output); };
+  if (output == standard_stream || is_device_or_pipe(output)) return;
+  const auto is_output = [&](const std::string& input) {
+    return !input.empty() && place_of(input) == place_of(output);
+  };
   if (std::ranges::any_of(inputs, is_output))
-    throw InputError({"", 0, option}, excerpt(output) + ", an input", "another name");
+    throw InputError({"", 0, option}, excerpt(output) + ", which is also an input", "another name");
 }
 
 bool take_standard_output(const std::vector<Output>& outputs) {

@@ -15,10 +15,11 @@ struct Output {
 };
 
 /// Throws InputError naming the option if a file has none of its extensions, in upper or lower case, or if
-/// two outputs are the same. Standard output, devices and pipes need no extension.
-void expect_outputs(const std::vector<Output>& outputs);
+/// two outputs are the same, or one is an input. Standard output, devices and pipes need no extension.
+void expect_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs);
 
-/// Throws InputError naming the option if its file or directory is one of the inputs, by whatever name.
+/// Throws InputError naming the option if its file or directory is one of the inputs, by whatever name. An
+/// input that is not given is empty. Standard streams, devices and pipes may be both.
 void expect_no_input(const std::string& option, const std::string& output,
                      const std::vector<std::string>& inputs);
 

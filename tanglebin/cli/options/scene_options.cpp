@@ -282,8 +282,9 @@ void add_tube_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option(
           "--tree", options.trees,
-          "Segments of branching tubes, as pairs of nodes with a length, m: 1-2:0.3,1-3:0.1,1-4:0.1; repeat "
-          "the option for each class (method axis)")
+          "Shape of branching tubes: straight segments, each as the numbers of the nodes at its ends and its "
+          "length, m; 1-2:0.3,1-3:0.1,1-4:0.1 is three that meet at node 1; repeat the option for each class "
+          "of tubes (method axis)")
       ->allow_extra_args(false)
       ->excludes(length)
       ->option_text("SEGMENTS");
