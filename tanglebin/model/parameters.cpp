@@ -4,9 +4,10 @@
 
 #include <cmath>
 #include <concepts>
-#include <ranges>
+#include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/suggestion.hpp"
@@ -292,8 +293,9 @@ void set(Value& parameter, double value, const Declaration& of) {
 }
 
 [[noreturn]] void reject(std::string_view name, const std::map<std::string, double>& known) {
-  const auto views = std::views::keys(known);
-  if (const auto nearest = nearest_name(name, {views.begin(), views.end()}))
+  std::vector<std::string_view> names;
+  for (const auto& [known_name, value] : known) names.push_back(known_name);
+  if (const auto nearest = nearest_name(name, names))
     throw InputError({"", 0, ""},
                      fmt::format("found {}, did you mean {}?", excerpt(name), excerpt(*nearest)));
   throw InputError({"", 0, ""}, excerpt(name), fmt::format("a parameter listed in {}", list_of_parameters));

@@ -15,6 +15,7 @@ namespace tanglebin {
 namespace {
 
 constexpr std::size_t enough = 3;  // chains of a length, to be sure that it is the tubes'
+constexpr double far = 2.6;        // times the longest fragment: how long a tube of a few pieces may be
 
 /// A chain of fragments.
 struct Chain {
@@ -88,10 +89,10 @@ struct Trial {
   double length;       ///< m; of the longest of the chains that have it
   std::size_t chains;  ///< that have it
   double evidence;     ///< log odds
+  double prior;        ///< log odds, of the links: fragments are parts of tubes more often than tubes
 };
 
-// Tries a kind of a known length. `links` are those of longer chains. That fragments are parts of tubes more
-// often than tubes is no evidence for a length: it would be for the largest.
+// Tries a kind of a known length. `links` are those of longer chains.
 Trial trial_of(const TubeKind& kind, const std::vector<Fragment>& fragments, std::vector<Link> links,
                const RangeImage& seen, const LinkSettings& settings) {
   constexpr double of_a_chain = 10;  // evidence for its length
@@ -100,10 +101,11 @@ Trial trial_of(const TubeKind& kind, const std::vector<Fragment>& fragments, std
   const ChosenLinks chosen = choose_links(fragments, links, kind, settings, seen);
   const std::vector<Chain> chains =
       as_long_as(kind, chains_of(fragments, links, chosen.links, kind.radius, seen));
+  const double prior = settings.chain_prior * static_cast<double>(chosen.links.size());
   return {.length = chains.empty() ? length : std::ranges::max(chains, {}, &Chain::length).length,
           .chains = chains.size(),
-          .evidence = chosen.log_odds - settings.chain_prior * static_cast<double>(chosen.links.size()) +
-                      of_a_chain * static_cast<double>(chains.size())};
+          .evidence = chosen.log_odds - prior + of_a_chain * static_cast<double>(chains.size()),
+          .prior = prior};
 }
 
 TubeKind of_length(TubeKind kind, double length) {
@@ -117,38 +119,35 @@ TubeKind of_any_length(TubeKind kind) {
   return kind;
 }
 
-// Of these lengths, m, the one with the most evidence. At too small a length, true links are missing; at too
-// large a length, chains are seen to end before it.
-Trial likeliest_length(const std::vector<double>& lengths, const TubeKind& kind,
-                       const std::vector<Fragment>& fragments, const std::vector<Link>& links,
-                       const RangeImage& seen, const LinkSettings& settings) {
-  Trial likeliest{
-      .length = lengths.front(), .chains = 0, .evidence = -std::numeric_limits<double>::infinity()};
-  for (const double length : lengths) {
-    const Trial trial = trial_of(of_length(kind, length), fragments, links, seen, settings);
-    if (trial.evidence > likeliest.evidence) likeliest = trial;
-  }
-  return likeliest;
+// These lengths, m. At too small a length, true links are missing; at too large a length, chains are seen to
+// end before it.
+std::vector<Trial> trials_of(const std::vector<double>& lengths, const TubeKind& kind,
+                             const std::vector<Fragment>& fragments, const std::vector<Link>& links,
+                             const RangeImage& seen, const LinkSettings& settings) {
+  std::vector<Trial> trials;
+  trials.reserve(lengths.size());
+  for (const double length : lengths)
+    trials.push_back(trial_of(of_length(kind, length), fragments, links, seen, settings));
+  return trials;
 }
 
-// Of the fragments, m. Two tubes that are taken for one may be longer than the tubes are, but then they are
-// fewer than it takes to be sure of a length.
-double length_of_third_longest(const std::vector<Fragment>& fragments) {
+// Where the lengths to try begin, m. Two tubes that are taken for one may be longer than the tubes are, but
+// then they are fewer than it takes to be sure of a length.
+double shortest_to_try(const std::vector<Fragment>& fragments, double longest) {
   std::vector<double> lengths;
   lengths.reserve(fragments.size());
   for (const Fragment& fragment : fragments) lengths.push_back(fragment.length);
-  const auto third = lengths.begin() + static_cast<std::ptrdiff_t>(std::min(enough, lengths.size()) - 1);
-  std::ranges::nth_element(lengths, third, std::greater<>());
-  return *third;
+  const auto last = lengths.begin() + static_cast<std::ptrdiff_t>(std::min(enough, lengths.size()) - 1);
+  std::ranges::nth_element(lengths, last, std::greater<>());
+  return std::max(*last, longest / far);
 }
 
 // The lengths, m, that the tubes may have. Where tubes are torn into many pieces, also those of longer
 // chains.
 std::vector<double> lengths_to_try(double shortest, double longest, std::vector<Chain> chains) {
   constexpr double step = 1.03;
-  constexpr double far = 2.6;
-  std::vector<double> lengths;
-  for (double length = shortest; length < far * longest; length *= step) lengths.push_back(length);
+  std::vector<double> lengths{shortest};
+  while (lengths.back() * step < far * longest) lengths.push_back(lengths.back() * step);
   std::ranges::sort(chains, {}, &Chain::length);
   for (const Chain& chain : chains) {
     if (chain.length > step * lengths.back()) lengths.push_back(chain.length);
@@ -175,14 +174,20 @@ TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, cons
   const std::vector<Link> links = links_to_try(fragments, seen, any, settings);
   const ChosenLinks chosen = choose_links(fragments, links, any, settings, seen);
   const std::vector<double> lengths =
-      lengths_to_try(length_of_third_longest(fragments), longest,
+      lengths_to_try(shortest_to_try(fragments, longest), longest,
                      chains_of(fragments, links, chosen.links, kind.radius, seen));
-  const Trial likeliest = likeliest_length(lengths, kind, fragments, links, seen, settings);
+  const std::vector<Trial> trials = trials_of(lengths, kind, fragments, links, seen, settings);
+  const Trial likeliest = std::ranges::max(trials, {}, &Trial::evidence);
   const bool is_sure = likeliest.chains >= enough;
-  if (is_known && !is_sure) return kind;
-  if (is_known && evidence_for(kind, fragments, links, seen, settings) >= likeliest.evidence) return kind;
-  kind.segments[0].length = is_sure ? likeliest.length : std::max(likeliest.length, longest);
-  if (!is_known && is_sure) kind.length_min = kind.segments[0].length;
+  if (is_sure && !is_known) return of_length(kind, likeliest.length);
+  if (is_known) {
+    if (is_sure && evidence_for(kind, fragments, links, seen, settings) < likeliest.evidence)
+      kind.segments[0].length = likeliest.length;
+    return kind;
+  }
+  // The prior favours the largest length. That is right where none is sure: it must not take tubes apart.
+  const auto with_prior = [](const Trial& trial) { return trial.evidence + trial.prior; };
+  kind.segments[0].length = std::max(std::ranges::max(trials, {}, with_prior).length, longest);
   return kind;
 }
 

@@ -99,6 +99,15 @@ TEST(WithLength, IsThatOfATubeTornIntoManyPieces) {
   EXPECT_EQ(found.model.tubes.size(), 1U);
 }
 
+// The second is a single spot of votes, which has no length.
+TEST(WithLength, IsThatOfATubeBesideASpot) {
+  const AxisModel found = modelled_with({test::chain(1, 0.0125, {{-0.15, 0, 0.0125}, {0.15, 0, 0.0125}}),
+                                         test::chain(2, 0.0125, {{0, 0.1, 0.0125}, {0.0001, 0.1, 0.0125}})},
+                                        0, infinite);
+  ASSERT_EQ(found.kinds[0].fragments.size(), 2U);
+  EXPECT_NEAR(found.kinds[0].length, 0.3, 0.01);
+}
+
 TEST(WithLength, OfTubesThatDifferIsTheLargest) {
   const AxisModel found =
       modelled_with({test::chain(1, 0.0125, {{-0.2, -0.1, 0.0125}, {-0.05, -0.1, 0.0125}}),
