@@ -36,6 +36,15 @@ TEST(WithLength, IsThatOfTheTubesSeenFromEndToEnd) {
   EXPECT_EQ(found.model.tubes.size(), 4U);
 }
 
+TEST(WithLength, CountsAsKnownIfThreeTubesAgree) {
+  std::vector<Tube> tubes = two_in_line();
+  for (const TubeEvidence& evidence : modelled_with(tubes, 0, infinite).model.evidence)
+    EXPECT_EQ(evidence.length_fit, LengthFit::complete);
+  tubes.resize(2);
+  for (const TubeEvidence& evidence : modelled_with(tubes, 0, infinite).model.evidence)
+    EXPECT_EQ(evidence.length_fit, LengthFit::unknown);
+}
+
 TEST(WithLength, IsTheLargestOfARange) {
   EXPECT_EQ(modelled_with(two_in_line(), 0.1, 0.3).kinds[0].length, 0.3);
 }
