@@ -145,6 +145,7 @@ void learn_for_links(const LearnArguments& arguments) {
 
 std::vector<std::string> recipes_of(const std::vector<std::string>& datasets) {
   std::vector<std::string> files;
+  files.reserve(datasets.size());
   for (const std::string& directory : datasets)
     files.push_back((std::filesystem::path(directory) / recipe_name).string());
   return files;

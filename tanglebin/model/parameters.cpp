@@ -294,6 +294,7 @@ void set(Value& parameter, double value, const Declaration& of) {
 
 [[noreturn]] void reject(std::string_view name, const std::map<std::string, double>& known) {
   std::vector<std::string_view> names;
+  names.reserve(known.size());
   for (const auto& [known_name, value] : known) names.push_back(known_name);
   if (const auto nearest = nearest_name(name, names))
     throw InputError({"", 0, ""},
