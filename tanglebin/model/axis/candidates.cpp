@@ -54,10 +54,11 @@ double usual_scatter(const std::vector<std::vector<TubeCandidate>>& of_kinds) {
   return weighted_median(std::move(scatters));
 }
 
+// A fitted line that is not quite right scatters, too, however exact the scanner.
 bool scatters_as_usual(const TubeCandidate& candidate, double usual) {
-  constexpr double exact = 0.01;  // radii
+  constexpr double of_fit = 0.03;  // radii
   constexpr double factor_max = 2;
-  return candidate.surface.scatter <= std::max(factor_max * usual, exact * candidate.tube.radius);
+  return candidate.surface.scatter <= std::max(factor_max * usual, of_fit * candidate.tube.radius);
 }
 
 void drop_unless(std::vector<std::vector<TubeCandidate>>& of_kinds, const auto& is_tube) {
