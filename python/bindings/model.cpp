@@ -109,6 +109,7 @@ void bind_model(py::module_& module) {
           doc::model::Model_filtered)
       .def_readonly("steps", &Model::steps, doc::model::Model_steps)
       .def_readonly("evidence", &Model::evidence, doc::model::Model_evidence)
+      .def_readonly("foreign_radii", &Model::foreign_radii, doc::model::Model_foreign_radii)
       .def_readonly("counts", &Model::counts, doc::model::PointCounts)
       .def_readonly("findings", &Model::findings, doc::model::Model_findings)
       .def_property_readonly("is_refused", &Model::is_refused, doc::model::Model_is_refused);

@@ -44,6 +44,7 @@ def test_a_model_says_how_sure_it_is(model, cloud):
         assert evidence.length == pytest.approx(0.5, abs=0.05) and evidence.residual < 0.002
         for join in evidence.joins:
             assert isinstance(join, tanglebin.TubeJoin) and join.from_point.shape == join.to_point.shape == (3,)
+    assert model.foreign_radii == []
     assert isinstance(model.counts, tanglebin.PointCounts) and model.counts.all == len(cloud)
     assert model.counts.on_tubes == (model.labels > 0).sum()
     assert all(isinstance(step, tanglebin.Step) and step.seconds >= 0 for step in model.steps)

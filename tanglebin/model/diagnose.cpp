@@ -60,6 +60,7 @@ public:
     if (findings_.empty()) look_for_tubes();
     if (!model_.tubes.empty()) {
       doubt_radius();
+      doubt_foreign();
       doubt_lengths();
       doubt_sensor();
     }
@@ -249,6 +250,21 @@ private:
                        "estimates it",
                        100 * std::abs(*error), *error > 0 ? "thicker" : "thinner", radii()));
     }
+  }
+
+  void doubt_foreign() {
+    if (model_.foreign_radii.empty()) return;
+    const auto [thinnest, thickest] = std::ranges::minmax(model_.foreign_radii);
+    constexpr double same = 1.2;
+    const std::string seen =
+        thickest < same * thinnest
+            ? fmt::format("a radius of about {:.2g} mm", 1000 * median(model_.foreign_radii))
+            : fmt::format("radii of about {:.2g} to {:.2g} mm", 1000 * thinnest, 1000 * thickest);
+    const bool is_one = model_.foreign_radii.size() == 1;
+    warn("foreign",
+         fmt::format("{} {} {}, not {}: left out. {} of a second kind of tube, to be declared as [[tube]]?",
+                     model_.foreign_radii.size(), is_one ? "tube has" : "tubes have", seen, radii(),
+                     is_one ? "Is it a foreign part, or" : "Are they foreign parts, or"));
   }
 
   // Where a tube reaches the image's border, it may go on.

@@ -4,19 +4,18 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
 #include "tanglebin/geometry/labels.hpp"
+#include "tanglebin/model/rim_check.hpp"
 
 namespace tanglebin {
 namespace {
@@ -293,79 +292,6 @@ std::optional<Finding> doubt_of_rim(const PointCloud& cloud, const KnownScene& k
                              percent(cells.found), percent(cells.seen_past), percent(cells.empty)));
 }
 
-/// The points level with a bin's rim near one of its sides.
-class RimSide {
-public:
-  // Sides are 0 to 3: −x, +x, −y, +y.
-  RimSide(const Bin& bin, std::size_t side)
-      : axis_(side < 2 ? 0 : 1),
-        sign_(side % 2 == 0 ? -1 : 1),
-        middle_(((side < 2 ? bin.length : bin.width) + bin.wall) / 2),
-        half_((side < 2 ? bin.width : bin.length) / 2),
-        wall_(bin.wall) {}
-
-  void see(const Vector3d& point) {
-    constexpr double reach = 0.06;  // m
-    const double outwards = sign_ * point[axis_] - middle_;
-    if (std::abs(outwards) > std::min(reach, middle_ / 2) || std::abs(point[1 - axis_]) > half_) return;
-    seen_.push_back({outwards, point[1 - axis_]});
-  }
-
-  // m: how far outwards of its place the rim is, if it is seen along enough of the side.
-  std::optional<double> offset() const {
-    if (seen_.empty()) return std::nullopt;
-    std::vector<double> offsets;
-    for (const Seen& seen : seen_) offsets.push_back(seen.outwards);
-    const double offset = median(std::move(offsets));
-    constexpr int places = 100;
-    constexpr std::size_t places_min = 40;
-    std::set<int> with_rim;
-    for (const Seen& seen : seen_) {
-      if (std::abs(seen.outwards - offset) < wall_)
-        with_rim.insert(static_cast<int>(places * (seen.along + half_) / (2 * half_)));
-    }
-    return with_rim.size() < places_min ? std::nullopt : std::optional(offset);
-  }
-
-private:
-  struct Seen {
-    double outwards;  // m, from the middle of the rim
-    double along;     // m
-  };
-
-  Eigen::Index axis_;
-  double sign_;
-  double middle_;  // m, from the bin's middle to the rim's
-  double half_;    // m, of the side's length
-  double wall_;
-  std::vector<Seen> seen_;
-};
-
-// Two sides of a bin that was moved along them are still where the scene has them.
-std::optional<Finding> doubt_of_sides(const PointCloud& cloud, const Support& support) {
-  std::vector<RimSide> sides;
-  for (std::size_t side = 0; side < 4; ++side) sides.emplace_back(support.bin, side);
-  const Eigen::Isometry3d to_support = support.pose.inverse(Eigen::Isometry);
-  constexpr double level = 0.005;
-  constexpr std::size_t wanted = 50'000;
-  for (std::size_t i = 0; i < cloud.points.size(); i += stride_for(cloud, wanted)) {
-    const Vector3d point = to_support * cloud.points[i].cast<double>();
-    if (!(std::abs(point.z() - support.bin.height) < level + support.margin)) continue;
-    for (RimSide& side : sides) side.see(point);
-  }
-  const double tolerance = std::max(level, support.bin.wall / 2) + support.margin;
-  constexpr std::array names{"-x", "+x", "-y", "+y"};
-  for (std::size_t side = 0; side < names.size(); ++side) {
-    const std::optional<double> offset = sides[side].offset();
-    if (!offset || std::abs(*offset) <= tolerance) continue;
-    return warning(
-        "bin", fmt::format("the bin's rim at {} is {:.0f} mm {} of where the scene has it: the bin "
-                           "may have another size or pose",
-                           names.at(side), 1000 * std::abs(*offset), *offset > 0 ? "outwards" : "inwards"));
-  }
-  return std::nullopt;
-}
-
 /// The points on the floor and in the solid, m, in the support's frame.
 struct SupportContact {
   std::size_t looked_at = 0;
@@ -463,8 +389,8 @@ std::vector<Finding> doubts_of_support(const PointCloud& cloud, const KnownScene
   constexpr std::size_t share = 50;
   const bool shows_support = share * model.counts.on_support > model.counts.all - model.counts.invalid;
   if (support.shape == Support::Shape::bin && shows_support) {
-    const std::optional<Finding> doubt = doubt_of_rim(cloud, known);
-    add(doubt ? doubt : doubt_of_sides(cloud, support));
+    const std::optional<Finding> doubt = doubt_of_rim_place(cloud, support);
+    add(doubt ? doubt : doubt_of_rim(cloud, known));
   }
   return doubts;
 }

@@ -250,6 +250,18 @@ TEST(Diagnose, NamesTheRadiusOfTubesThatLookTooThin) {
               HasSubstr("the points fit no tube of radius 25 mm; they look like tubes of radius 12.5 mm"));
 }
 
+TEST(Diagnose, NamesTheRadiiOfForeignTubes) {
+  const View view = right_view();
+  Model model = model_of(view);
+  model.foreign_radii = {0.00404};
+  EXPECT_THAT(text_of(diagnose(view.cloud, view.scene, model, 1)),
+              HasSubstr("foreign: 1 tube has a radius of about 4 mm, not 12.5 mm: left out. Is it a foreign "
+                        "part, or of a second kind of tube, to be declared as [[tube]]?"));
+  model.foreign_radii = {0.004, 0.0183};
+  EXPECT_THAT(text_of(diagnose(view.cloud, view.scene, model, 1)),
+              HasSubstr("2 tubes have radii of about 4 to 18 mm, not 12.5 mm: left out. Are they foreign"));
+}
+
 TEST(Diagnose, WarnsOfTooFewPointsAcrossATube) {
   const View view = right_view();
   const Model model = model_tubes(view.cloud, view.scene, {.ratio = 0.02});

@@ -118,19 +118,46 @@ struct Scan {
   const OtherSurfaces& others;
 };
 
-// The tubes, with their fragments and the points of these.
-void add_tubes(Model& model, AxisSteps& steps, std::vector<TubeCandidate> candidates,
-               std::vector<std::int32_t>& claimed) {
-  steps.tubes.clear();
-  for (TubeCandidate& candidate : candidates) {
-    candidate.tube.id = static_cast<int>(model.tubes.size()) + 1;
+/// Tubes to label points with, and the points that they were fitted to.
+struct Claims {
+  std::vector<Tube> tubes;
+  std::vector<std::int32_t> claimed;  ///< for each point of the cloud
+
+  void add(const Tube& tube, const TubeCandidate& candidate, const AxisSteps& steps,
+           const std::vector<std::size_t>& filtered) {
+    tubes.push_back(tube);
+    tubes.back().id = static_cast<int>(tubes.size());
     for (const std::size_t fragment : candidate.fragments) {
       for (const std::size_t point : steps.fragments[fragment].points)
-        claimed[model.filtered[point]] = candidate.tube.id;
+        claimed[filtered[point]] = tubes.back().id;
     }
-    model.tubes.push_back(std::move(candidate.tube));
+  }
+};
+
+// The tubes, with their fragments.
+void add_tubes(Model& model, AxisSteps& steps, std::vector<TubeCandidate> candidates, Claims& claims) {
+  steps.tubes.clear();
+  for (TubeCandidate& candidate : candidates) {
+    claims.add(candidate.tube, candidate, steps, model.filtered);
+    model.tubes.push_back(claims.tubes.back());
     steps.tubes.push_back(std::move(candidate.fragments));
   }
+}
+
+// A foreign tube keeps its points from being its neighbours'; they are on no tube.
+void label(Model& model, Claims claims, const std::vector<AxisSteps>& kinds,
+           const std::vector<std::vector<TubeCandidate>>& foreign, const Scan& scan,
+           const LabelSettings& settings) {
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+    for (const TubeCandidate& candidate : foreign[kind]) {
+      claims.add(candidate.tube, candidate, kinds[kind], model.filtered);
+      model.foreign_radii.push_back(candidate.seen.front().radius);
+    }
+  }
+  model.labels = label_points(scan.cloud, scan.cropped, claims.claimed, claims.tubes, settings, scan.others);
+  const auto last = static_cast<std::int32_t>(model.tubes.size());
+  std::ranges::replace_if(
+      model.labels, [&](std::int32_t label) { return label > last; }, null_label);
 }
 
 // What is known, with the lengths that were found where none was.
@@ -180,16 +207,17 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
     candidates.push_back(fit_candidates(steps, voting.points, kind, known.camera, settings));
   });
   drop_what_is_no_tube(candidates, known.support);
-  std::vector<std::int32_t> claimed(scan.cloud.points.size(), null_label);
+  const std::vector<std::vector<TubeCandidate>> foreign = take_foreign(candidates, known.kinds);
+  Claims claims{{}, std::vector<std::int32_t>(scan.cloud.points.size(), null_label)};
   for (std::size_t kind = 0; kind < known.kinds.size(); ++kind) {
     AxisSteps& steps = result.kinds[kind];
-    add_tubes(model, steps, std::move(candidates[kind]), claimed);
+    add_tubes(model, steps, std::move(candidates[kind]), claims);
     std::ranges::move(evidence_of(steps, kind, length_max(steps.length, settings.link)),
                       std::back_inserter(model.evidence));
   }
   clock.end_step("fit", model.tubes.size(), "tubes");
 
-  model.labels = label_points(scan.cloud, scan.cropped, claimed, model.tubes, settings.label, scan.others);
+  label(model, std::move(claims), result.kinds, foreign, scan, settings.label);
   clock.end_step("label",
                  static_cast<std::size_t>(std::ranges::count_if(
                      model.labels, [](std::int32_t label) { return label > bin_label; })),

@@ -1,6 +1,8 @@
 #include "tanglebin/model/axis/candidates.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
@@ -66,6 +68,67 @@ void drop_unless(std::vector<std::vector<TubeCandidate>>& of_kinds, const auto& 
     std::erase_if(candidates, [&](const TubeCandidate& candidate) { return !is_tube(candidate); });
 }
 
+std::vector<SeenRadius> seen_radii(const Tube& tube, const std::vector<Fragment>& fragments,
+                                   const std::vector<std::size_t>& members,
+                                   const std::vector<Eigen::Vector3f>& points,
+                                   const Eigen::Vector3d& sensor) {
+  std::vector<SeenRadius> seen;
+  std::vector<Eigen::Vector3d> all;
+  all.reserve(number_of_points(fragments, members));
+  for (const std::size_t member : members) {
+    std::vector<Eigen::Vector3d> own;
+    own.reserve(fragments[member].points.size());
+    for (const std::size_t point : fragments[member].points) own.emplace_back(points[point].cast<double>());
+    all.insert(all.end(), own.begin(), own.end());
+    if (members.size() == 1) continue;
+    if (const auto radius = seen_radius(tube, own, sensor)) seen.push_back(*radius);
+  }
+  if (const auto radius = seen_radius(tube, all, sensor)) seen.insert(seen.begin(), *radius);
+  return seen;
+}
+
+// Farther from the known radius than errors of the scanner explain.
+bool is_other_radius(const SeenRadius& seen, double known) {
+  constexpr std::size_t pieces_min = 8;
+  constexpr double tolerance = 0.2;
+  constexpr double errors = 4;
+  return seen.pieces >= pieces_min &&
+         std::abs(seen.radius - known) > std::max(tolerance * known, errors * seen.error);
+}
+
+bool is_foreign(const SeenRadius& seen, const std::vector<TubeKind>& kinds) {
+  return std::ranges::all_of(kinds, [&](const TubeKind& kind) { return is_other_radius(seen, kind.radius); });
+}
+
+bool shows_known_radius(const TubeCandidate& candidate) {
+  constexpr double tolerance = 0.1;
+  return !candidate.seen.empty() &&
+         std::abs(candidate.seen.front().radius / candidate.tube.radius - 1) < tolerance;
+}
+
+// Whether at least a quarter of the points are on tubes that show it.
+bool are_radii_right(const std::vector<std::vector<TubeCandidate>>& of_kinds) {
+  constexpr std::size_t share = 4;
+  std::size_t all = 0;
+  std::size_t right = 0;
+  for (const std::vector<TubeCandidate>& candidates : of_kinds) {
+    for (const TubeCandidate& candidate : candidates) {
+      all += candidate.points;
+      right += shows_known_radius(candidate) ? candidate.points : 0;
+    }
+  }
+  return share * right >= all;
+}
+
+// Puts a foreign radius first.
+bool finds_foreign(TubeCandidate& candidate, const std::vector<TubeKind>& kinds) {
+  const auto foreign =
+      std::ranges::find_if(candidate.seen, [&](const SeenRadius& seen) { return is_foreign(seen, kinds); });
+  if (foreign == candidate.seen.end()) return false;
+  std::iter_swap(candidate.seen.begin(), foreign);
+  return true;
+}
+
 }  // namespace
 
 std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
@@ -76,7 +139,10 @@ std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vec
     if (is_false_speck(steps, members, kind, settings.link)) continue;
     Tube tube = fit_tube(steps.fragments, members, steps.links, steps.chosen, points, kind, settings.fit);
     const TubeSurface surface = surface_of(tube, steps.fragments, members, points, steps.votes, camera);
-    candidates.push_back({members, number_of_points(steps.fragments, members), std::move(tube), surface});
+    std::vector<SeenRadius> seen =
+        seen_radii(tube, steps.fragments, members, points, camera.pose.translation());
+    candidates.push_back(
+        {members, number_of_points(steps.fragments, members), std::move(tube), surface, std::move(seen)});
   }
   return candidates;
 }
@@ -90,6 +156,21 @@ void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, con
               [&](const TubeCandidate& candidate) { return looks_like_a_tube(candidate.surface, support); });
   const double usual = usual_scatter(of_kinds);
   drop_unless(of_kinds, [&](const TubeCandidate& candidate) { return scatters_as_usual(candidate, usual); });
+}
+
+std::vector<std::vector<TubeCandidate>> take_foreign(std::vector<std::vector<TubeCandidate>>& of_kinds,
+                                                     const std::vector<TubeKind>& kinds) {
+  std::vector<std::vector<TubeCandidate>> foreign(of_kinds.size());
+  if (!are_radii_right(of_kinds)) return foreign;
+  for (std::size_t kind = 0; kind < of_kinds.size(); ++kind) {
+    std::vector<TubeCandidate>& candidates = of_kinds[kind];
+    const auto first =
+        std::stable_partition(candidates.begin(), candidates.end(),
+                              [&](TubeCandidate& candidate) { return !finds_foreign(candidate, kinds); });
+    std::move(first, candidates.end(), std::back_inserter(foreign[kind]));
+    candidates.erase(first, candidates.end());
+  }
+  return foreign;
 }
 
 }  // namespace tanglebin

@@ -8,6 +8,7 @@
 #include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/model/axis/axis_method.hpp"
 #include "tanglebin/model/axis/fragments/tube_surface.hpp"
+#include "tanglebin/model/axis/seen_radius.hpp"
 #include "tanglebin/model/axis/settings/axis_settings.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"
 
@@ -19,6 +20,8 @@ struct TubeCandidate {
   std::size_t points;                  ///< of the fragments
   Tube tube;
   TubeSurface surface;
+  std::vector<SeenRadius>
+      seen{};  ///< of all its points, then of those of each fragment, as far as they show one
 };
 
 /// Fits a tube to each set of fragments in `steps.tubes`, but for specks: of these next to nothing is seen;
@@ -31,5 +34,11 @@ std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vec
 /// another radius; and without a support walls, so that what shows too little to tell is no tube there. A
 /// ball is none either: an upright tube shows one if its ends are round.
 void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, const Support& support);
+
+/// Takes the tubes out that clearly show a radius, all along or in one of their fragments, that none of the
+/// kinds has. If hardly any tube shows a known radius, what is known is wrong, and none is taken out. Returns
+/// them by kind; the first of their seen radii is the foreign one.
+std::vector<std::vector<TubeCandidate>> take_foreign(std::vector<std::vector<TubeCandidate>>& of_kinds,
+                                                     const std::vector<TubeKind>& kinds);
 
 }  // namespace tanglebin

@@ -27,6 +27,7 @@ struct Model {
   std::vector<std::size_t> filtered;  ///< points that the filter kept, ascending; Section 5 scores these
   std::vector<Step> steps;            ///< in the order in which they ran
   std::vector<TubeEvidence> evidence{};  ///< for each tube: how sure it is
+  std::vector<double> foreign_radii{};   ///< m, of each tube that no kind has the radius of: left unexplained
   PointCounts counts{};
   std::vector<Finding> findings{};  ///< what does not fit: errors, then warnings; empty if all is well
 

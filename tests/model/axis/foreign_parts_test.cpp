@@ -104,6 +104,50 @@ TEST(ForeignParts, OfABinThatIsNotKnownAreNoTubes) {
   }
 }
 
+// Three hoses side by side on the floor of the paper's bin, and across them a tube of this radius.
+std::vector<Tube> hoses_and_one_across(double radius) {
+  std::vector<Tube> tubes = {test::straight_tube(1, -0.08), test::straight_tube(2, 0),
+                             test::straight_tube(3, 0.08)};
+  const double height = 2 * test::radius + radius;
+  tubes.push_back(test::chain(4, radius, {{0.02, -0.16, height}, {0.05, 0.16, height}}));
+  return tubes;
+}
+
+TEST(ForeignParts, InAKnownBinATubeOfAnotherRadiusStaysUnexplained) {
+  for (const double radius : {0.006, 0.018}) {
+    const PointCloud cloud = test::scanned(hoses_and_one_across(radius));
+    const Model model = model_tubes(cloud, test::paper_scene());
+    ASSERT_EQ(model.tubes.size(), 3U) << radius;
+    ASSERT_EQ(model.foreign_radii.size(), 1U) << radius;
+    EXPECT_NEAR(model.foreign_radii[0], radius, 0.03 * radius);
+    std::size_t null_points = 0;
+    std::size_t points = 0;
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+      if (cloud.labels[i] != 4) continue;
+      ++points;
+      if (model.labels[i] == null_label) ++null_points;
+    }
+    EXPECT_GT(10 * null_points, 9 * points) << radius;
+  }
+}
+
+TEST(ForeignParts, ATubeOfAnyKnownRadiusIsNone) {
+  KnownScene known = test::paper_scene();
+  known.kinds.push_back({.radius = 0.018});
+  const Model model = model_tubes(test::scanned(hoses_and_one_across(0.018)), known);
+  EXPECT_EQ(model.tubes.size(), 4U);
+  EXPECT_TRUE(model.foreign_radii.empty());
+}
+
+// The known radius is wrong, which is said in other words. To leave all tubes out would not help.
+TEST(ForeignParts, AreNotAllTubes) {
+  KnownScene known = test::paper_scene();
+  known.kinds[0].radius = 0.016;
+  const Model model = model_tubes(test::scanned(hoses_and_one_across(test::radius)), known);
+  EXPECT_FALSE(model.tubes.empty());
+  EXPECT_TRUE(model.foreign_radii.empty());
+}
+
 // Waves of 3 mm, like a sagging sheet.
 TEST(ForeignParts, StayUnexplainedOnAFloorThatIsNotFlat) {
   const PointCloud cloud =

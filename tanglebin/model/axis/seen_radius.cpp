@@ -1,0 +1,207 @@
+#include "tanglebin/model/axis/seen_radius.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tanglebin/base/median.hpp"
+#include "tanglebin/geometry/capsule.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// Points around the axis of a piece of a tube, m: sideways, and towards the sensor.
+using Section = std::vector<Vector2d>;
+
+/// The sections of a tube's pieces. Pieces are about two radii long.
+class Sections {
+public:
+  explicit Sections(const Tube& tube) : capsules_(capsules(tube)) {
+    for (const Capsule& capsule : capsules_) {
+      const double pieces = std::max(1.0, std::round((capsule.b - capsule.a).norm() / (2 * tube.radius)));
+      of_capsules_.emplace_back(static_cast<std::size_t>(pieces));
+    }
+  }
+
+  // Points beyond the ends of a cylinder may be on a cap, a face or the outside of a bend.
+  void add(const Vector3d& point, const Vector3d& sensor) {
+    const std::size_t nearest = nearest_to(point);
+    const auto& [a, b, radius, flat_at_a, flat_at_b] = capsules_[nearest];
+    const double t = nearest_on_axis(capsules_[nearest], point);
+    if (!(t > 0 && t < 1)) return;
+    const Vector3d way = point - (a + t * (b - a));
+    const Vector3d side = (b - a).cross(sensor - point).normalized();
+    const Vector3d front = side.cross((b - a).normalized());
+    std::vector<Section>& pieces = of_capsules_[nearest];
+    const auto piece = static_cast<std::size_t>(t * static_cast<double>(pieces.size()));
+    pieces[std::min(piece, pieces.size() - 1)].emplace_back(way.dot(side), way.dot(front));
+  }
+
+  const std::vector<std::vector<Section>>& of_capsules() const { return of_capsules_; }
+
+  std::size_t number_of_pieces() const {
+    std::size_t sum = 0;
+    for (const std::vector<Section>& pieces : of_capsules_) sum += pieces.size();
+    return sum;
+  }
+
+private:
+  std::size_t nearest_to(const Vector3d& point) const {
+    const auto nearest = std::ranges::min_element(
+        capsules_, {}, [&](const Capsule& capsule) { return axis_distance(capsule, point); });
+    return static_cast<std::size_t>(nearest - capsules_.begin());
+  }
+
+  std::vector<Capsule> capsules_;
+  std::vector<std::vector<Section>> of_capsules_;
+};
+
+struct Circle {
+  Vector2d centre;
+  double radius;
+};
+
+/// Sums over the points near the front of a circle.
+struct Sums {
+  Matrix3d products = Matrix3d::Zero();
+  Vector3d right_side = Vector3d::Zero();
+  double squares = 0;  // of the residuals
+  std::size_t points = 0;
+  std::size_t facing = 0;  // with those that are farther from the circle
+  double leftmost = 1;     // in radii from the middle
+  double rightmost = -1;
+
+  double noise() const { return std::sqrt(squares / static_cast<double>(points)); }
+};
+
+// What faces away from the sensor by more than 50° does not count: there, sensors blend a tube with what is
+// behind it.
+Sums sums_over(const Section& section, const Circle& circle, double residual_max) {
+  constexpr double aside_max = 0.77;
+  Sums sums;
+  for (const Vector2d& point : section) {
+    const double aside = (point.x() - circle.centre.x()) / circle.radius;
+    if (std::abs(aside) > aside_max) continue;
+    ++sums.facing;
+    const double facing = std::sqrt(1 - aside * aside);
+    const double residual = point.y() - circle.centre.y() - circle.radius * facing;
+    if (std::abs(residual) > residual_max) continue;
+    const Vector3d row(aside / facing, 1, 1 / facing);
+    sums.products += row * row.transpose();
+    sums.right_side += residual * row;
+    sums.squares += residual * residual;
+    ++sums.points;
+    sums.leftmost = std::min(sums.leftmost, aside);
+    sums.rightmost = std::max(sums.rightmost, aside);
+  }
+  return sums;
+}
+
+// A small one on the front of the section: it grows as long as points beside it are on the circle too.
+std::optional<Circle> first_circle(const Section& section, double known_radius) {
+  constexpr double share = 0.35;
+  constexpr std::size_t points_min = 5;
+  const double radius = share * known_radius;
+  std::vector<double> front;
+  front.reserve(section.size());
+  for (const Vector2d& point : section) {
+    if (std::abs(point.x()) < radius / 2) front.push_back(point.y());
+  }
+  if (front.size() < points_min) return std::nullopt;
+  return Circle{{0, median(std::move(front)) - radius}, radius};
+}
+
+/// The radius of a piece, and its standard error, m.
+struct PieceRadius {
+  double radius;
+  double error;
+
+  // Errors of thin circles look small: they count as shares of the radius.
+  double weight() const { return radius * radius / (error * error); }
+};
+
+std::optional<PieceRadius> radius_of(const Section& section, double known_radius) {
+  constexpr std::size_t points_min = 10;
+  constexpr int iterations = 15;
+  constexpr int wide_iterations = 7;    // while the circle grows
+  constexpr double residual_max = 0.3;  // known radii
+  constexpr double sigmas = 3;
+  constexpr double exact = 0.01;  // known radii
+  constexpr double step_max = 0.4;
+  constexpr double factor_max = 5;
+  constexpr double arc_min = 1;       // rad
+  constexpr double error_min = 0.02;  // radii
+  std::optional<Circle> circle = first_circle(section, known_radius);
+  if (!circle) return std::nullopt;
+  double wanted = residual_max * known_radius;
+  Sums sums;
+  for (int i = 0; i < iterations; ++i) {
+    sums = sums_over(section, *circle, wanted);
+    if (sums.points < points_min || 2 * sums.points < sums.facing) return std::nullopt;
+    const Vector3d step = sums.products.inverse() * sums.right_side;
+    circle->centre += step.head<2>();
+    circle->radius *= 1 + std::clamp(step[2] / circle->radius, -step_max, step_max);
+    const double factor = circle->radius / known_radius;
+    if (!(factor > 1 / factor_max && factor < factor_max)) return std::nullopt;
+    if (i >= wide_iterations)
+      wanted = std::min(wanted, std::max(sigmas * sums.noise(), exact * known_radius));
+  }
+  if (std::asin(sums.rightmost) - std::asin(sums.leftmost) < arc_min) return std::nullopt;
+  const double error = sums.noise() * std::sqrt(sums.products.inverse()(2, 2));
+  return PieceRadius{circle->radius, std::max(error, error_min * circle->radius)};
+}
+
+double weighted_middle(std::vector<PieceRadius>& pieces) {
+  std::ranges::sort(pieces, {}, &PieceRadius::radius);
+  double left = 0;
+  for (const PieceRadius& piece : pieces) left += piece.weight() / 2;
+  for (const PieceRadius& piece : pieces) {
+    left -= piece.weight();
+    if (left <= 0) return piece.radius;
+  }
+  return pieces.back().radius;
+}
+
+// The error is what the pieces' own errors and what their differences say, whichever is more.
+SeenRadius middle_of(std::vector<PieceRadius> pieces) {
+  const double middle = weighted_middle(pieces);
+  std::vector<double> differences;
+  differences.reserve(pieces.size());
+  double weight = 0;
+  for (const PieceRadius& piece : pieces) {
+    differences.push_back(std::abs(piece.radius - middle));
+    weight += piece.weight();
+  }
+  const double deviation = deviation_of_median * median(std::move(differences));
+  const double from_pieces = deviation / std::sqrt(static_cast<double>(pieces.size()));
+  return {middle, std::max(from_pieces, middle / std::sqrt(weight)), pieces.size()};
+}
+
+}  // namespace
+
+std::optional<SeenRadius> seen_radius(const Tube& tube, const std::vector<Vector3d>& points,
+                                      const Vector3d& sensor) {
+  constexpr std::size_t for_each_piece = 100;
+  Sections sections(tube);
+  const std::size_t pieces = sections.number_of_pieces();
+  if (pieces == 0) return std::nullopt;
+  const std::size_t stride = points.size() / (for_each_piece * pieces) + 1;
+  for (std::size_t i = 0; i < points.size(); i += stride) sections.add(points[i], sensor);
+  std::vector<PieceRadius> radii;
+  radii.reserve(pieces);
+  for (const std::vector<Section>& of_capsule : sections.of_capsules()) {
+    for (const Section& section : of_capsule) {
+      if (const std::optional<PieceRadius> radius = radius_of(section, tube.radius)) radii.push_back(*radius);
+    }
+  }
+  if (radii.empty()) return std::nullopt;
+  return middle_of(std::move(radii));
+}
+
+}  // namespace tanglebin

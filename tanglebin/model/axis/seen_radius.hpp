@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "tanglebin/geometry/tube.hpp"
+
+// Internal to the room.
+namespace tanglebin {
+
+/// The radius that points on a tube show, whatever the tube's own is.
+struct SeenRadius {
+  double radius = 0;       ///< m, the median over short pieces of the tube
+  double error = 0;        ///< m, standard error, from how much the pieces differ
+  std::size_t pieces = 0;  ///< that show one
+};
+
+/// Fits a circle to the section of each piece of the tube that is two radii long, by least squares along the
+/// rays, where the noise is. Only the tube's direction counts, and that it runs about in the middle of what
+/// is seen. The points (m) are those that the tube was fitted to. None if no piece shows enough of an arc.
+std::optional<SeenRadius> seen_radius(const Tube& tube, const std::vector<Eigen::Vector3d>& points,
+                                      const Eigen::Vector3d& sensor);
+
+}  // namespace tanglebin

@@ -1,0 +1,72 @@
+#include "tanglebin/model/axis/seen_radius.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "tanglebin/base/constants.hpp"
+#include "tests/model/scene/scanned.hpp"
+
+namespace tanglebin {
+namespace {
+
+using Eigen::Vector3d;
+
+const Vector3d sensor(0, 0, 2);  // m, above the tube
+
+// What the sensor sees of a tube along x of this radius, whose front is where that of the modelled one is.
+std::vector<Vector3d> front_of(double radius, double noise) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> error(0, 1);
+  std::vector<Vector3d> points;
+  for (double x = -0.24; x < 0.24; x += 0.001) {
+    for (double turn = -80; turn <= 80; turn += 5) {
+      const double angle = turn * degree;
+      points.emplace_back(x, radius * std::sin(angle),
+                          2 * test::radius - radius + radius * std::cos(angle) + noise * error(random));
+    }
+  }
+  return points;
+}
+
+std::optional<SeenRadius> seen(const std::vector<Vector3d>& points) {
+  return seen_radius(test::straight_tube(1, 0), points, sensor);
+}
+
+TEST(SeenRadius, IsThatOfThePointsNotOfTheModelledTube) {
+  for (const double radius : {0.004, 0.009, 0.0125, 0.02}) {
+    const auto found = seen(front_of(radius, 0));
+    ASSERT_TRUE(found) << radius;
+    EXPECT_NEAR(found->radius, radius, 0.01 * radius);
+    EXPECT_GE(found->pieces, 5U);
+  }
+}
+
+TEST(SeenRadius, ErrorGrowsWithNoise) {
+  const auto noisy = seen(front_of(0.008, 0.0005));
+  const auto noisier = seen(front_of(0.008, 0.001));
+  ASSERT_TRUE(noisy && noisier);
+  EXPECT_NEAR(noisy->radius, 0.008, 4 * noisy->error);
+  EXPECT_NEAR(noisier->radius, 0.008, 4 * noisier->error);
+  EXPECT_LT(noisy->error, noisier->error);
+}
+
+TEST(SeenRadius, IsNotDrawnAsideByAFewPointsOfANeighbour) {
+  std::vector<Vector3d> points = front_of(0.008, 0);
+  for (double x = -0.24; x < 0.24; x += 0.001) points.emplace_back(x, 0.009, 0.02);
+  const auto found = seen(points);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->radius, 0.008, 0.05 * 0.008);
+}
+
+TEST(SeenRadius, IsNoneWithoutAnArc) {
+  EXPECT_FALSE(seen({}));
+  std::vector<Vector3d> flat = front_of(0.0125, 0);
+  for (Vector3d& point : flat) point.z() = 2 * test::radius;
+  EXPECT_FALSE(seen(flat));
+}
+
+}  // namespace
+}  // namespace tanglebin
