@@ -68,23 +68,17 @@ void drop_unless(std::vector<std::vector<TubeCandidate>>& of_kinds, const auto& 
     std::erase_if(candidates, [&](const TubeCandidate& candidate) { return !is_tube(candidate); });
 }
 
-std::vector<SeenRadius> seen_radii(const Tube& tube, const std::vector<Fragment>& fragments,
-                                   const std::vector<std::size_t>& members,
-                                   const std::vector<Eigen::Vector3f>& points,
-                                   const Eigen::Vector3d& sensor) {
-  std::vector<SeenRadius> seen;
-  std::vector<Eigen::Vector3d> all;
-  all.reserve(number_of_points(fragments, members));
-  for (const std::size_t member : members) {
-    std::vector<Eigen::Vector3d> own;
-    own.reserve(fragments[member].points.size());
-    for (const std::size_t point : fragments[member].points) own.emplace_back(points[point].cast<double>());
-    all.insert(all.end(), own.begin(), own.end());
-    if (members.size() == 1) continue;
-    if (const auto radius = seen_radius(tube, own, sensor)) seen.push_back(*radius);
+// The points of each member.
+std::vector<std::vector<Eigen::Vector3d>> parts_of(const std::vector<Fragment>& fragments,
+                                                   const std::vector<std::size_t>& members,
+                                                   const std::vector<Eigen::Vector3f>& points) {
+  std::vector<std::vector<Eigen::Vector3d>> parts(members.size());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const std::vector<std::size_t>& own = fragments[members[i]].points;
+    parts[i].reserve(own.size());
+    for (const std::size_t point : own) parts[i].emplace_back(points[point].cast<double>());
   }
-  if (const auto radius = seen_radius(tube, all, sensor)) seen.insert(seen.begin(), *radius);
-  return seen;
+  return parts;
 }
 
 // Farther from the known radius than errors of the scanner explain.
@@ -140,7 +134,7 @@ std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vec
     Tube tube = fit_tube(steps.fragments, members, steps.links, steps.chosen, points, kind, settings.fit);
     const TubeSurface surface = surface_of(tube, steps.fragments, members, points, steps.votes, camera);
     std::vector<SeenRadius> seen =
-        seen_radii(tube, steps.fragments, members, points, camera.pose.translation());
+        seen_radii(tube, parts_of(steps.fragments, members, points), camera.pose.translation());
     candidates.push_back(
         {members, number_of_points(steps.fragments, members), std::move(tube), surface, std::move(seen)});
   }

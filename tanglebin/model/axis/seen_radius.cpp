@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
@@ -132,7 +133,8 @@ std::optional<PieceRadius> radius_of(const Section& section, double known_radius
   constexpr int wide_iterations = 7;    // while the circle grows
   constexpr double residual_max = 0.3;  // known radii
   constexpr double sigmas = 3;
-  constexpr double exact = 0.01;  // known radii
+  constexpr double exact = 0.01;     // known radii
+  constexpr double settled = 0.001;  // known radii
   constexpr double step_max = 0.4;
   constexpr double factor_max = 5;
   constexpr double arc_min = 1;       // rad
@@ -149,6 +151,7 @@ std::optional<PieceRadius> radius_of(const Section& section, double known_radius
     circle->radius *= 1 + std::clamp(step[2] / circle->radius, -step_max, step_max);
     const double factor = circle->radius / known_radius;
     if (!(factor > 1 / factor_max && factor < factor_max)) return std::nullopt;
+    if (i > wide_iterations && std::abs(step[2]) < settled * known_radius) break;
     if (i >= wide_iterations)
       wanted = std::min(wanted, std::max(sigmas * sums.noise(), exact * known_radius));
   }
@@ -183,25 +186,40 @@ SeenRadius middle_of(std::vector<PieceRadius> pieces) {
   return {middle, std::max(from_pieces, middle / std::sqrt(weight)), pieces.size()};
 }
 
-}  // namespace
-
-std::optional<SeenRadius> seen_radius(const Tube& tube, const std::vector<Vector3d>& points,
-                                      const Vector3d& sensor) {
-  constexpr std::size_t for_each_piece = 100;
-  Sections sections(tube);
-  const std::size_t pieces = sections.number_of_pieces();
-  if (pieces == 0) return std::nullopt;
-  const std::size_t stride = points.size() / (for_each_piece * pieces) + 1;
-  for (std::size_t i = 0; i < points.size(); i += stride) sections.add(points[i], sensor);
+std::vector<PieceRadius> radii_of(const Sections& sections, double known_radius) {
   std::vector<PieceRadius> radii;
-  radii.reserve(pieces);
+  radii.reserve(sections.number_of_pieces());
   for (const std::vector<Section>& of_capsule : sections.of_capsules()) {
     for (const Section& section : of_capsule) {
-      if (const std::optional<PieceRadius> radius = radius_of(section, tube.radius)) radii.push_back(*radius);
+      if (const std::optional<PieceRadius> radius = radius_of(section, known_radius))
+        radii.push_back(*radius);
     }
   }
-  if (radii.empty()) return std::nullopt;
-  return middle_of(std::move(radii));
+  return radii;
+}
+
+}  // namespace
+
+std::vector<SeenRadius> seen_radii(const Tube& tube, const std::vector<std::vector<Vector3d>>& parts,
+                                   const Vector3d& sensor) {
+  constexpr std::size_t for_each_piece = 100;
+  const Sections empty(tube);
+  if (empty.number_of_pieces() == 0) return {};
+  std::size_t points = 0;
+  for (const std::vector<Vector3d>& part : parts) points += part.size();
+  const std::size_t stride = points / (for_each_piece * empty.number_of_pieces()) + 1;
+  std::vector<PieceRadius> all;
+  std::vector<SeenRadius> seen;
+  seen.reserve(parts.size() + 1);
+  for (const std::vector<Vector3d>& part : parts) {
+    Sections sections = empty;
+    for (std::size_t i = 0; i < part.size(); i += stride) sections.add(part[i], sensor);
+    std::vector<PieceRadius> radii = radii_of(sections, tube.radius);
+    all.insert(all.end(), radii.begin(), radii.end());
+    if (parts.size() > 1 && !radii.empty()) seen.push_back(middle_of(std::move(radii)));
+  }
+  if (!all.empty()) seen.insert(seen.begin(), middle_of(std::move(all)));
+  return seen;
 }
 
 }  // namespace tanglebin

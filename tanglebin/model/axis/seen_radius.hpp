@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "tanglebin/geometry/tube.hpp"
@@ -19,8 +18,9 @@ struct SeenRadius {
 
 /// Fits a circle to the section of each piece of the tube that is two radii long, by least squares along the
 /// rays, where the noise is. Only the tube's direction counts, and that it runs about in the middle of what
-/// is seen. The points (m) are those that the tube was fitted to. None if no piece shows enough of an arc.
-std::optional<SeenRadius> seen_radius(const Tube& tube, const std::vector<Eigen::Vector3d>& points,
-                                      const Eigen::Vector3d& sensor);
+/// is seen. The points (m) are those of the parts that the tube was fitted to. Returns what all parts show
+/// together, and if there are several, what each of them does; without those that show no arc.
+std::vector<SeenRadius> seen_radii(const Tube& tube, const std::vector<std::vector<Eigen::Vector3d>>& parts,
+                                   const Eigen::Vector3d& sensor);
 
 }  // namespace tanglebin

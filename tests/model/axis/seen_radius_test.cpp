@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -32,7 +33,8 @@ std::vector<Vector3d> front_of(double radius, double noise) {
 }
 
 std::optional<SeenRadius> seen(const std::vector<Vector3d>& points) {
-  return seen_radius(test::straight_tube(1, 0), points, sensor);
+  const std::vector<SeenRadius> found = seen_radii(test::straight_tube(1, 0), {points}, sensor);
+  return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 TEST(SeenRadius, IsThatOfThePointsNotOfTheModelledTube) {
@@ -59,6 +61,19 @@ TEST(SeenRadius, IsNotDrawnAsideByAFewPointsOfANeighbour) {
   const auto found = seen(points);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->radius, 0.008, 0.05 * 0.008);
+}
+
+// As where a cable was joined to a hose.
+TEST(SeenRadius, IsThatOfEachPartToo) {
+  std::vector<Vector3d> thin = front_of(0.006, 0);
+  std::vector<Vector3d> thick = front_of(0.0125, 0);
+  std::erase_if(thin, [](const Vector3d& point) { return point.x() > -0.1; });
+  std::erase_if(thick, [](const Vector3d& point) { return point.x() < -0.1; });
+  const std::vector<SeenRadius> found = seen_radii(test::straight_tube(1, 0), {thin, thick}, sensor);
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_NEAR(found[0].radius, 0.0125, 0.0002);
+  EXPECT_NEAR(found[1].radius, 0.006, 0.0002);
+  EXPECT_NEAR(found[2].radius, 0.0125, 0.0002);
 }
 
 TEST(SeenRadius, IsNoneWithoutAnArc) {
