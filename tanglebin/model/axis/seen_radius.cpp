@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -32,16 +33,15 @@ public:
 
   // Points beyond the ends of a cylinder may be on a cap, a face or the outside of a bend.
   void add(const Vector3d& point, const Vector3d& sensor) {
-    const std::size_t nearest = nearest_to(point);
-    const auto& [a, b, radius, flat_at_a, flat_at_b] = capsules_[nearest];
-    const double t = nearest_on_axis(capsules_[nearest], point);
-    if (!(t > 0 && t < 1)) return;
-    const Vector3d way = point - (a + t * (b - a));
-    const Vector3d side = (b - a).cross(sensor - point).normalized();
-    const Vector3d front = side.cross((b - a).normalized());
-    std::vector<Section>& pieces = of_capsules_[nearest];
-    const auto piece = static_cast<std::size_t>(t * static_cast<double>(pieces.size()));
-    pieces[std::min(piece, pieces.size() - 1)].emplace_back(way.dot(side), way.dot(front));
+    const Nearest nearest = nearest_to(point);
+    if (!(nearest.t > 0 && nearest.t < 1)) return;
+    const Capsule& capsule = capsules_[nearest.capsule];
+    const Vector3d along = (capsule.b - capsule.a).normalized();
+    const Vector3d side = along.cross(sensor - point).normalized();
+    const Vector3d front = side.cross(along);
+    std::vector<Section>& pieces = of_capsules_[nearest.capsule];
+    const auto piece = static_cast<std::size_t>(nearest.t * static_cast<double>(pieces.size()));
+    pieces[std::min(piece, pieces.size() - 1)].emplace_back(nearest.way.dot(side), nearest.way.dot(front));
   }
 
   const std::vector<std::vector<Section>>& of_capsules() const { return of_capsules_; }
@@ -53,10 +53,24 @@ public:
   }
 
 private:
-  std::size_t nearest_to(const Vector3d& point) const {
-    const auto nearest = std::ranges::min_element(
-        capsules_, {}, [&](const Capsule& capsule) { return axis_distance(capsule, point); });
-    return static_cast<std::size_t>(nearest - capsules_.begin());
+  /// The capsule whose axis a point is nearest to.
+  struct Nearest {
+    std::size_t capsule;
+    double t;      // of the point on the axis, from 0 to 1
+    Vector3d way;  // m, from there
+  };
+
+  Nearest nearest_to(const Vector3d& point) const {
+    Nearest nearest{};
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < capsules_.size(); ++i) {
+      const double t = nearest_on_axis(capsules_[i], point);
+      const Vector3d way = point - (capsules_[i].a + t * (capsules_[i].b - capsules_[i].a));
+      if (way.squaredNorm() >= least) continue;
+      least = way.squaredNorm();
+      nearest = {i, t, way};
+    }
+    return nearest;
   }
 
   std::vector<Capsule> capsules_;
