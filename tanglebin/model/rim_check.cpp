@@ -73,7 +73,7 @@ public:
     constexpr double reach = 0.06;  // m
     const double outwards = sign_ * static_cast<double>(point[axis_]) - middle_;
     const auto along = static_cast<double>(point[1 - axis_]);
-    if (std::abs(outwards) > std::min(reach, middle_ / 2) || std::abs(along) >= half_) return;
+    if (!(std::abs(outwards) <= std::min(reach, middle_ / 2) && std::abs(along) < half_)) return;
     const double share = (along + half_) / (2 * half_);
     seen_.at(static_cast<std::size_t>(share * places)).push_back(outwards);
   }
