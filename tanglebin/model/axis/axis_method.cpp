@@ -160,13 +160,10 @@ void label(Model& model, Claims claims, const std::vector<AxisSteps>& kinds,
       model.labels, [&](std::int32_t label) { return label > last; }, null_label);
 }
 
-// What is known, with the lengths that were found where none was.
+// What is known, with the lengths that were found for sure where none was known.
 KnownScene with_found_lengths(KnownScene known, const std::vector<AxisSteps>& kinds) {
   for (std::size_t i = 0; i < kinds.size(); ++i) {
-    TubeKind& kind = known.kinds[i];
-    if (kind.length_is_known() || kinds[i].length_min == 0) continue;
-    kind.segments[0].length = kinds[i].length;
-    kind.length_min = kinds[i].length_min;
+    if (!known.kinds[i].length_is_known() && kinds[i].kind.length_min > 0) known.kinds[i] = kinds[i].kind;
   }
   return known;
 }
@@ -192,12 +189,10 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
 
   for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
     look_beyond_ends(steps.fragments, known_kind.radius, seen);
-    const TubeKind kind = with_length(known_kind, steps.fragments, seen, settings.link);
-    steps.length = kind.length();
-    steps.length_min = kind.length_min;
-    steps.links = find_links(steps.fragments, seen, kind, settings.link,
+    steps.kind = with_length(known_kind, steps.fragments, seen, settings.link);
+    steps.links = find_links(steps.fragments, seen, steps.kind, settings.link,
                              space_of_other_kinds(result.kinds, known, steps));
-    steps.chosen = choose_links(steps.fragments, steps.links, kind, settings.link, seen).links;
+    steps.chosen = choose_links(steps.fragments, steps.links, steps.kind, settings.link, seen).links;
     steps.tubes = linked_fragments(steps.fragments.size(), steps.links, steps.chosen);
   });
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");
@@ -212,7 +207,7 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   for (std::size_t kind = 0; kind < known.kinds.size(); ++kind) {
     AxisSteps& steps = result.kinds[kind];
     add_tubes(model, steps, std::move(candidates[kind]), claims);
-    std::ranges::move(evidence_of(steps, kind, length_max(steps.length, settings.link)),
+    std::ranges::move(evidence_of(steps, kind, length_max(steps.kind.length(), settings.link)),
                       std::back_inserter(model.evidence));
   }
   clock.end_step("fit", model.tubes.size(), "tubes");

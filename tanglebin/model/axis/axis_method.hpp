@@ -24,8 +24,7 @@ struct AxisSteps {
   std::vector<Link> links;
   std::vector<std::size_t> chosen;              ///< indices into links
   std::vector<std::vector<std::size_t>> tubes;  ///< the fragments of each tube, in the order of Model::tubes
-  double length = 0;                            ///< m, of these tubes; found if it was not known
-  double length_min = 0;  ///< m, of whole tubes; found if it was not known, 0 if no length was found for sure
+  TubeKind kind{};  ///< of these tubes; with the length that was found, if none was known
 };
 
 /// A model, with the results of the steps for each known kind of tube.

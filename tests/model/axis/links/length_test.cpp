@@ -32,7 +32,7 @@ std::vector<Tube> two_in_line() {
 
 TEST(WithLength, IsThatOfTheTubesSeenFromEndToEnd) {
   const AxisModel found = modelled_with(two_in_line(), 0, infinite);
-  EXPECT_NEAR(found.kinds[0].length, 0.24, 0.005);
+  EXPECT_NEAR(found.kinds[0].kind.length(), 0.24, 0.005);
   EXPECT_EQ(found.model.tubes.size(), 4U);
 }
 
@@ -46,21 +46,21 @@ TEST(WithLength, CountsAsKnownIfThreeTubesAgree) {
 }
 
 TEST(WithLength, IsTheLargestOfARange) {
-  EXPECT_EQ(modelled_with(two_in_line(), 0.1, 0.3).kinds[0].length, 0.3);
+  EXPECT_EQ(modelled_with(two_in_line(), 0.1, 0.3).kinds[0].kind.length(), 0.3);
 }
 
 TEST(WithLength, IsTheOneGivenIfItIsGiven) {
-  EXPECT_EQ(modelled_with(two_in_line(), 0, 0.3).kinds[0].length, 0.3);
-  EXPECT_EQ(modelled_with(two_in_line(), 0.295, 0.3).kinds[0].length, 0.3);
+  EXPECT_EQ(modelled_with(two_in_line(), 0, 0.3).kinds[0].kind.length(), 0.3);
+  EXPECT_EQ(modelled_with(two_in_line(), 0.295, 0.3).kinds[0].kind.length(), 0.3);
 }
 
 TEST(WithLength, IsNotTheOneGivenIfThreeTubesAreLonger) {
-  EXPECT_NEAR(modelled_with(two_in_line(), 0, 0.22).kinds[0].length, 0.24, 0.005);
+  EXPECT_NEAR(modelled_with(two_in_line(), 0, 0.22).kinds[0].kind.length(), 0.24, 0.005);
   const std::vector<Tube> longer = {test::chain(1, 0.0125, {{-0.2, -0.1, 0.0125}, {0.04, -0.1, 0.0125}}),
                                     test::chain(2, 0.0125, {{-0.2, 0, 0.0125}, {0.04, 0, 0.0125}}),
                                     test::chain(3, 0.0125, {{-0.2, 0.1, 0.0125}, {0.04, 0.1, 0.0125}})};
-  EXPECT_NEAR(modelled_with(longer, 0, 0.22).kinds[0].length, 0.24, 0.005);
-  EXPECT_EQ(modelled_with({longer[0], longer[1]}, 0, 0.22).kinds[0].length, 0.22);
+  EXPECT_NEAR(modelled_with(longer, 0, 0.22).kinds[0].kind.length(), 0.24, 0.005);
+  EXPECT_EQ(modelled_with({longer[0], longer[1]}, 0, 0.22).kinds[0].kind.length(), 0.22);
 }
 
 // Three pairs in line, which look like one tube each, with their ends under another; six that lie alone; and
@@ -78,8 +78,8 @@ TEST(WithLength, IsTheOneGivenIfOnlySomethingElseIsLonger) {
   }
   add({0, -0.11, 0.0375}, {0, 0.11, 0.0375});
   add({-0.18, 0.165, 0.0125}, {0.18, 0.165, 0.0125});
-  EXPECT_EQ(modelled_with(tubes, 0.2, 0.2).kinds[0].length, 0.2);
-  EXPECT_EQ(modelled_with(tubes, 0.19, 0.22).kinds[0].length, 0.22);
+  EXPECT_EQ(modelled_with(tubes, 0.2, 0.2).kinds[0].kind.length(), 0.2);
+  EXPECT_EQ(modelled_with(tubes, 0.19, 0.22).kinds[0].kind.length(), 0.22);
 }
 
 // Each is in two pieces, on either side of one that lies across.
@@ -90,7 +90,7 @@ TEST(WithLength, IsThatOfTubesLongerThanAnyPieceThatIsSeen) {
     tubes.push_back(test::chain(id, 0.0125, {{-0.2, y, 0.0125}, {0.2, y, 0.0125}}));
   }
   const AxisModel found = modelled_with(tubes, 0, infinite);
-  EXPECT_NEAR(found.kinds[0].length, 0.4, 0.005);
+  EXPECT_NEAR(found.kinds[0].kind.length(), 0.4, 0.005);
   EXPECT_EQ(found.model.tubes.size(), 5U);
 }
 
@@ -104,7 +104,7 @@ TEST(WithLength, IsThatOfATubeTornIntoManyPieces) {
   KnownScene known = test::paper_scene();
   known.kinds[0].segments[0].length = infinite;
   const AxisModel found = model_by_axes(cloud, known, 1, 0);
-  EXPECT_NEAR(found.kinds[0].length, 0.49, 0.015);
+  EXPECT_NEAR(found.kinds[0].kind.length(), 0.49, 0.015);
   EXPECT_EQ(found.model.tubes.size(), 1U);
 }
 
@@ -114,7 +114,7 @@ TEST(WithLength, IsThatOfATubeBesideASpot) {
                                          test::chain(2, 0.0125, {{0, 0.1, 0.0125}, {0.0001, 0.1, 0.0125}})},
                                         0, infinite);
   ASSERT_EQ(found.kinds[0].fragments.size(), 2U);
-  EXPECT_NEAR(found.kinds[0].length, 0.3, 0.01);
+  EXPECT_NEAR(found.kinds[0].kind.length(), 0.3, 0.01);
 }
 
 TEST(WithLength, OfTubesThatDifferIsTheLargest) {
@@ -123,7 +123,7 @@ TEST(WithLength, OfTubesThatDifferIsTheLargest) {
                      test::chain(2, 0.0125, {{-0.2, 0, 0.0125}, {0.04, 0, 0.0125}}),
                      test::chain(3, 0.0125, {{-0.2, 0.1, 0.0125}, {0.15, 0.1, 0.0125}})},
                     0, infinite);
-  EXPECT_NEAR(found.kinds[0].length, 0.35, 0.01);
+  EXPECT_NEAR(found.kinds[0].kind.length(), 0.35, 0.01);
   EXPECT_EQ(found.model.tubes.size(), 3U);
 }
 
@@ -131,11 +131,11 @@ TEST(WithLength, OfTubesThatDifferIsTheLargest) {
 TEST(WithLength, CountsATubeBetweenTheWallsAsWhole) {
   const AxisModel found =
       modelled_with({test::chain(1, 0.0125, {{-0.262, 0, 0.0125}, {0.262, 0, 0.0125}})}, 0, infinite);
-  EXPECT_NEAR(found.kinds[0].length, 0.524, 0.01);
+  EXPECT_NEAR(found.kinds[0].kind.length(), 0.524, 0.01);
 }
 
 TEST(WithLength, OfNothingIsUnknown) {
-  EXPECT_EQ(modelled_with({}, 0, infinite).kinds[0].length, infinite);
+  EXPECT_EQ(modelled_with({}, 0, infinite).kinds[0].kind.length(), infinite);
 }
 
 }  // namespace
