@@ -2,7 +2,7 @@
 // told. Counters, over all heaps: the modelled tubes of which most points are of a foreign one (foreign), how
 // many of these are sure, a confidence of at least 0.9 (sure); how many tubes were left out (left_out); how
 // many tubes of the known radius there are (told), and of how many more than half of the points are on a tube
-// of their own (found). The time is that of modelling one heap.
+// of their own (found) or on no tube at all (lost). The time is that of modelling one heap.
 //
 //     build/bench_foreign
 
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "bench/paper_sets.hpp"
+#include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/scan/scan_output.hpp"
 #include "tanglebin/scan/scanner.hpp"
@@ -79,6 +80,7 @@ struct Counts {
   double left_out = 0;
   double told = 0;
   double found = 0;
+  double lost = 0;
 };
 
 /// How many points each true tube has on each modelled one.
@@ -111,7 +113,12 @@ void count_found(const PointCloud& cloud, const Model& model, const std::set<int
     if (tube <= 0 || foreign.contains(tube)) continue;
     ++counts.told;
     int points = 0;
-    for (const auto& [label, count] : on) points += count;
+    int on_none = 0;
+    for (const auto& [label, count] : on) {
+      points += count;
+      if (label <= bin_label) on_none += count;
+    }
+    if (2 * on_none > points) ++counts.lost;
     const int most = most_of(on);
     if (most > 0 && 2 * on.at(most) > points && taken.insert(most).second) ++counts.found;
   }
@@ -146,6 +153,7 @@ void model_heaps(benchmark::State& state, const Mixture& mixture, const std::str
   state.counters["left_out"] = counts.left_out;
   state.counters["told"] = counts.told;
   state.counters["found"] = counts.found;
+  state.counters["lost"] = counts.lost;
 }
 
 bool register_all() {
