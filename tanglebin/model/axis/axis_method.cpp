@@ -118,46 +118,31 @@ struct Scan {
   const OtherSurfaces& others;
 };
 
-/// Tubes to label points with, and the points that they were fitted to.
-struct Claims {
-  std::vector<Tube> tubes;
-  std::vector<std::int32_t> claimed;  ///< for each point of the cloud
-
-  void add(const Tube& tube, const TubeCandidate& candidate, const AxisSteps& steps,
-           const std::vector<std::size_t>& filtered) {
-    tubes.push_back(tube);
-    tubes.back().id = static_cast<int>(tubes.size());
-    for (const std::size_t fragment : candidate.fragments) {
-      for (const std::size_t point : steps.fragments[fragment].points)
-        claimed[filtered[point]] = tubes.back().id;
-    }
-  }
-};
-
-// The tubes, with their fragments.
-void add_tubes(Model& model, AxisSteps& steps, std::vector<TubeCandidate> candidates, Claims& claims) {
-  steps.tubes.clear();
-  for (TubeCandidate& candidate : candidates) {
-    claims.add(candidate.tube, candidate, steps, model.filtered);
-    model.tubes.push_back(claims.tubes.back());
-    steps.tubes.push_back(std::move(candidate.fragments));
+// Adds the candidate's tube, and claims the points that it was fitted to.
+void add_tube(Model& model, std::vector<std::int32_t>& claimed, TubeCandidate candidate,
+              const AxisSteps& steps) {
+  const auto id = static_cast<std::int32_t>(model.tubes.size() + 1);
+  model.tubes.push_back(std::move(candidate.tube));
+  model.tubes.back().id = id;
+  for (const std::size_t fragment : candidate.fragments) {
+    for (const std::size_t point : steps.fragments[fragment].points) claimed[model.filtered[point]] = id;
   }
 }
 
 // A foreign tube keeps its points from being its neighbours'; they are on no tube.
-void label(Model& model, Claims claims, const std::vector<AxisSteps>& kinds,
-           const std::vector<std::vector<TubeCandidate>>& foreign, const Scan& scan,
-           const LabelSettings& settings) {
+void label(Model& model, std::vector<std::int32_t> claimed, const std::vector<AxisSteps>& kinds,
+           std::vector<std::vector<ForeignTube>> foreign, const Scan& scan, const LabelSettings& settings) {
+  const std::size_t known = model.tubes.size();
   for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-    for (const TubeCandidate& candidate : foreign[kind]) {
-      claims.add(candidate.tube, candidate, kinds[kind], model.filtered);
-      model.foreign_radii.push_back(candidate.seen.front().radius);
+    for (ForeignTube& tube : foreign[kind]) {
+      add_tube(model, claimed, std::move(tube.candidate), kinds[kind]);
+      model.foreign_radii.push_back(tube.radius);
     }
   }
-  model.labels = label_points(scan.cloud, scan.cropped, claims.claimed, claims.tubes, settings, scan.others);
-  const auto last = static_cast<std::int32_t>(model.tubes.size());
+  model.labels = label_points(scan.cloud, scan.cropped, claimed, model.tubes, settings, scan.others);
+  model.tubes.resize(known);
   std::ranges::replace_if(
-      model.labels, [&](std::int32_t label) { return label > last; }, null_label);
+      model.labels, [&](std::int32_t label) { return label > static_cast<std::int32_t>(known); }, null_label);
 }
 
 // What is known, with the lengths that were found for sure where none was known.
@@ -202,17 +187,21 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
     candidates.push_back(fit_candidates(steps, voting.points, kind, known.camera, settings));
   });
   drop_what_is_no_tube(candidates, known.support);
-  const std::vector<std::vector<TubeCandidate>> foreign = take_foreign(candidates, known.kinds);
-  Claims claims{{}, std::vector<std::int32_t>(scan.cloud.points.size(), null_label)};
+  std::vector<std::vector<ForeignTube>> foreign = take_foreign(candidates, known.kinds);
+  std::vector<std::int32_t> claimed(scan.cloud.points.size(), null_label);
   for (std::size_t kind = 0; kind < known.kinds.size(); ++kind) {
     AxisSteps& steps = result.kinds[kind];
-    add_tubes(model, steps, std::move(candidates[kind]), claims);
+    steps.tubes.clear();
+    for (TubeCandidate& candidate : candidates[kind]) {
+      steps.tubes.push_back(candidate.fragments);
+      add_tube(model, claimed, std::move(candidate), steps);
+    }
     std::ranges::move(evidence_of(steps, kind, length_max(steps.kind.length(), settings.link)),
                       std::back_inserter(model.evidence));
   }
   clock.end_step("fit", model.tubes.size(), "tubes");
 
-  label(model, std::move(claims), result.kinds, foreign, scan, settings.label);
+  label(model, std::move(claimed), result.kinds, std::move(foreign), scan, settings.label);
   clock.end_step("label",
                  static_cast<std::size_t>(std::ranges::count_if(
                      model.labels, [](std::int32_t label) { return label > bin_label; })),

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
@@ -68,19 +68,6 @@ void drop_unless(std::vector<std::vector<TubeCandidate>>& of_kinds, const auto& 
     std::erase_if(candidates, [&](const TubeCandidate& candidate) { return !is_tube(candidate); });
 }
 
-// The points of each member.
-std::vector<std::vector<Eigen::Vector3d>> parts_of(const std::vector<Fragment>& fragments,
-                                                   const std::vector<std::size_t>& members,
-                                                   const std::vector<Eigen::Vector3f>& points) {
-  std::vector<std::vector<Eigen::Vector3d>> parts(members.size());
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    const std::vector<std::size_t>& own = fragments[members[i]].points;
-    parts[i].reserve(own.size());
-    for (const std::size_t point : own) parts[i].emplace_back(points[point].cast<double>());
-  }
-  return parts;
-}
-
 // Farther from the known radius than errors of the scanner explain.
 bool is_other_radius(const SeenRadius& seen, double known) {
   constexpr std::size_t pieces_min = 8;
@@ -114,13 +101,12 @@ bool are_radii_right(const std::vector<std::vector<TubeCandidate>>& of_kinds) {
   return share * right >= all;
 }
 
-// Puts a foreign radius first.
-bool finds_foreign(TubeCandidate& candidate, const std::vector<TubeKind>& kinds) {
+// m, if the candidate shows one.
+std::optional<double> foreign_radius(const TubeCandidate& candidate, const std::vector<TubeKind>& kinds) {
   const auto foreign =
       std::ranges::find_if(candidate.seen, [&](const SeenRadius& seen) { return is_foreign(seen, kinds); });
-  if (foreign == candidate.seen.end()) return false;
-  std::iter_swap(candidate.seen.begin(), foreign);
-  return true;
+  if (foreign == candidate.seen.end()) return std::nullopt;
+  return foreign->radius;
 }
 
 }  // namespace
@@ -134,7 +120,7 @@ std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vec
     Tube tube = fit_tube(steps.fragments, members, steps.links, steps.chosen, points, kind, settings.fit);
     const TubeSurface surface = surface_of(tube, steps.fragments, members, points, steps.votes, camera);
     std::vector<SeenRadius> seen =
-        seen_radii(tube, parts_of(steps.fragments, members, points), camera.pose.translation());
+        seen_radii(tube, steps.fragments, members, points, camera.pose.translation());
     candidates.push_back(
         {members, number_of_points(steps.fragments, members), std::move(tube), surface, std::move(seen)});
   }
@@ -152,17 +138,19 @@ void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, con
   drop_unless(of_kinds, [&](const TubeCandidate& candidate) { return scatters_as_usual(candidate, usual); });
 }
 
-std::vector<std::vector<TubeCandidate>> take_foreign(std::vector<std::vector<TubeCandidate>>& of_kinds,
-                                                     const std::vector<TubeKind>& kinds) {
-  std::vector<std::vector<TubeCandidate>> foreign(of_kinds.size());
+std::vector<std::vector<ForeignTube>> take_foreign(std::vector<std::vector<TubeCandidate>>& of_kinds,
+                                                   const std::vector<TubeKind>& kinds) {
+  std::vector<std::vector<ForeignTube>> foreign(of_kinds.size());
   if (!are_radii_right(of_kinds)) return foreign;
   for (std::size_t kind = 0; kind < of_kinds.size(); ++kind) {
-    std::vector<TubeCandidate>& candidates = of_kinds[kind];
-    const auto first =
-        std::stable_partition(candidates.begin(), candidates.end(),
-                              [&](TubeCandidate& candidate) { return !finds_foreign(candidate, kinds); });
-    std::move(first, candidates.end(), std::back_inserter(foreign[kind]));
-    candidates.erase(first, candidates.end());
+    std::vector<TubeCandidate> known;
+    for (TubeCandidate& candidate : of_kinds[kind]) {
+      if (const std::optional<double> radius = foreign_radius(candidate, kinds))
+        foreign[kind].push_back({std::move(candidate), *radius});
+      else
+        known.push_back(std::move(candidate));
+    }
+    of_kinds[kind] = std::move(known);
   }
   return foreign;
 }

@@ -24,6 +24,12 @@ struct TubeCandidate {
       seen{};  ///< of all its points, then of those of each fragment, as far as they show one
 };
 
+/// What was taken for a tube of a known kind.
+struct ForeignTube {
+  TubeCandidate candidate;
+  double radius;  ///< m, as seen
+};
+
 /// Fits a tube to each set of fragments in `steps.tubes`, but for specks: of these next to nothing is seen;
 /// or no more than of a ball, and the rest should have been seen.
 std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
@@ -37,8 +43,8 @@ void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, con
 
 /// Takes the tubes out that clearly show a radius, all along or in one of their fragments, that none of the
 /// kinds has. If hardly any tube shows a known radius, what is known is wrong, and none is taken out. Returns
-/// them by kind; the first of their seen radii is the foreign one.
-std::vector<std::vector<TubeCandidate>> take_foreign(std::vector<std::vector<TubeCandidate>>& of_kinds,
-                                                     const std::vector<TubeKind>& kinds);
+/// them by kind.
+std::vector<std::vector<ForeignTube>> take_foreign(std::vector<std::vector<TubeCandidate>>& of_kinds,
+                                                   const std::vector<TubeKind>& kinds);
 
 }  // namespace tanglebin

@@ -214,23 +214,24 @@ std::vector<PieceRadius> radii_of(const Sections& sections, double known_radius)
 
 }  // namespace
 
-std::vector<SeenRadius> seen_radii(const Tube& tube, const std::vector<std::vector<Vector3d>>& parts,
-                                   const Vector3d& sensor) {
+std::vector<SeenRadius> seen_radii(const Tube& tube, const std::vector<Fragment>& fragments,
+                                   const std::vector<std::size_t>& members,
+                                   const std::vector<Eigen::Vector3f>& points, const Vector3d& sensor) {
   constexpr std::size_t for_each_piece = 100;
   const Sections empty(tube);
   if (empty.number_of_pieces() == 0) return {};
-  std::size_t points = 0;
-  for (const std::vector<Vector3d>& part : parts) points += part.size();
-  const std::size_t stride = points / (for_each_piece * empty.number_of_pieces()) + 1;
+  const std::size_t stride =
+      number_of_points(fragments, members) / (for_each_piece * empty.number_of_pieces()) + 1;
   std::vector<PieceRadius> all;
   std::vector<SeenRadius> seen;
-  seen.reserve(parts.size() + 1);
-  for (const std::vector<Vector3d>& part : parts) {
+  seen.reserve(members.size() + 1);
+  for (const std::size_t member : members) {
+    const std::vector<std::size_t>& own = fragments[member].points;
     Sections sections = empty;
-    for (std::size_t i = 0; i < part.size(); i += stride) sections.add(part[i], sensor);
+    for (std::size_t i = 0; i < own.size(); i += stride) sections.add(points[own[i]].cast<double>(), sensor);
     std::vector<PieceRadius> radii = radii_of(sections, tube.radius);
     all.insert(all.end(), radii.begin(), radii.end());
-    if (parts.size() > 1 && !radii.empty()) seen.push_back(middle_of(std::move(radii)));
+    if (members.size() > 1 && !radii.empty()) seen.push_back(middle_of(std::move(radii)));
   }
   if (!all.empty()) seen.insert(seen.begin(), middle_of(std::move(all)));
   return seen;

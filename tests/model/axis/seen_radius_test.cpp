@@ -32,8 +32,23 @@ std::vector<Vector3d> front_of(double radius, double noise) {
   return points;
 }
 
+// By a straight tube that was fitted to fragments with these points.
+std::vector<SeenRadius> seen_by_parts(const std::vector<std::vector<Vector3d>>& parts) {
+  std::vector<Fragment> fragments(parts.size());
+  std::vector<std::size_t> members;
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    members.push_back(part);
+    for (const Vector3d& point : parts[part]) {
+      fragments[part].points.push_back(points.size());
+      points.push_back(point.cast<float>());
+    }
+  }
+  return seen_radii(test::straight_tube(1, 0), fragments, members, points, sensor);
+}
+
 std::optional<SeenRadius> seen(const std::vector<Vector3d>& points) {
-  const std::vector<SeenRadius> found = seen_radii(test::straight_tube(1, 0), {points}, sensor);
+  const std::vector<SeenRadius> found = seen_by_parts({points});
   return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
@@ -69,7 +84,7 @@ TEST(SeenRadius, IsThatOfEachPartToo) {
   std::vector<Vector3d> thick = front_of(0.0125, 0);
   std::erase_if(thin, [](const Vector3d& point) { return point.x() > -0.1; });
   std::erase_if(thick, [](const Vector3d& point) { return point.x() < -0.1; });
-  const std::vector<SeenRadius> found = seen_radii(test::straight_tube(1, 0), {thin, thick}, sensor);
+  const std::vector<SeenRadius> found = seen_by_parts({thin, thick});
   ASSERT_EQ(found.size(), 3U);
   EXPECT_NEAR(found[0].radius, 0.0125, 0.0002);
   EXPECT_NEAR(found[1].radius, 0.006, 0.0002);
