@@ -50,8 +50,8 @@ Modelled modelled_from(const CaseData& data, const SeenPoints& seen, std::vector
   model.evidence.resize(model.tubes.size());
   model.labels = std::move(labels);
   if (model.labels.empty()) {
-    const std::vector<std::int32_t> unclaimed(data.cloud.points.size(), null_label);
-    model.labels = label_points(data.cloud, seen.cropped, unclaimed, model.tubes, {});
+    std::vector<std::int32_t> unclaimed(data.cloud.points.size(), null_label);
+    model.labels = label_points(data.cloud, seen.cropped, std::move(unclaimed), model.tubes, {});
   }
   return modelled;
 }

@@ -139,7 +139,8 @@ void label(Model& model, std::vector<std::int32_t> claimed, const std::vector<Ax
       model.foreign_radii.push_back(tube.radius);
     }
   }
-  model.labels = label_points(scan.cloud, scan.cropped, claimed, model.tubes, settings, scan.others);
+  model.labels =
+      label_points(scan.cloud, scan.cropped, std::move(claimed), model.tubes, settings, scan.others);
   model.tubes.resize(known);
   std::ranges::replace_if(
       model.labels, [&](std::int32_t label) { return label > static_cast<std::int32_t>(known); }, null_label);
@@ -246,20 +247,19 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   const Ramps ramps = ramps_in(cloud, known, given.ramp);
   const bool has_ramps = ramps.blended >= given.ramp.blended_min;
   const AxisSettings settings = has_ramps ? given : for_sharp_edges(given);
-  const std::vector<Vector3f> voters =
-      has_ramps ? without(ramps, voting.points, voting.filtered) : voting.points;
+  std::vector<Vector3f> voters = has_ramps ? without(ramps, voting.points, voting.filtered) : voting.points;
   clock.end_step("filter", voting.points.size(), "points");
 
   const std::vector<std::vector<Vector3f>> by_kind =
-      points_by_kind(voters, known, settings.vote, settings.fragment);
+      points_by_kind(std::move(voters), known, settings.vote, settings.fragment);
   for (std::size_t i = 0; i < known.kinds.size(); ++i) {
     voting.of_kinds.push_back(
         vote_for_axes(by_kind[i], known.support, known.camera, known.kinds[i].radius, settings.vote));
   }
   clock.end_step("vote", number_of_votes(voting), "votes");
 
-  const RangeImage seen(points_seen(cloud, cropped, voting.filtered, ratio, seed), known.camera,
-                        solid_parts(known.support));
+  RangeImage seen({}, known.camera, solid_parts(known.support));
+  for_each_seen(cropped, voting.filtered, ratio, seed, [&](std::size_t i) { seen.add(cloud.points[i]); });
   const OtherSurfaces others = other_surfaces(voting, known.support, cloud.points.size());
   const auto model_with = [&](double shift) {
     return model_votes(voting, seen, {cloud, cropped, known, others}, settings, shift, at_step);

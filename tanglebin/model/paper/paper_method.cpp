@@ -65,7 +65,8 @@ PaperModel model_as_in_paper(const PointCloud& cloud, const KnownScene& known, d
   clock.end_step("fit", result.cylinders.size(), "cylinders");
 
   // The joining step.
-  const RangeImage seen(points_seen(cloud, cropped, model.filtered, ratio, seed), known.camera);
+  RangeImage seen({}, known.camera);
+  for_each_seen(cropped, model.filtered, ratio, seed, [&](std::size_t i) { seen.add(cloud.points[i]); });
   result.joins = join_cylinders(result.cylinders, seen, kind.length(), settings.join);
   const std::vector<JoinedTube> tubes = joined_tubes(result.cylinders, result.joins, kind);
   for (const JoinedTube& joined : tubes) model.tubes.push_back(joined.tube);

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
-#include "tanglebin/base/picked.hpp"
 #include "tanglebin/base/random.hpp"
 
 namespace tanglebin {
@@ -54,6 +52,8 @@ Cropped crop(const PointCloud& cloud, const Support& support, const FilterSettin
   const NearBoxes solid(parts, settings.margin);
   const NearBoxes in_doubt(parts, settings.margin + support.margin);
   Cropped cropped;
+  for (auto* indices : {&cropped.kept, &cropped.support, &cropped.outside})
+    indices->reserve(cloud.points.size());
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Eigen::Vector3d point = cloud.points[i].cast<double>();
     if (!point.allFinite()) continue;
@@ -84,16 +84,6 @@ std::vector<std::size_t> downsample(const std::vector<std::size_t>& indices, dou
     }
   }
   return drawn;
-}
-
-std::vector<Eigen::Vector3f> points_seen(const PointCloud& cloud, const Cropped& cropped,
-                                         const std::vector<std::size_t>& filtered, double ratio,
-                                         std::uint64_t seed) {
-  std::vector<Eigen::Vector3f> seen = picked(cloud.points, filtered);
-  for (const auto* others : {&cropped.support, &cropped.outside}) {
-    std::ranges::copy(picked(cloud.points, downsample(*others, ratio, seed)), std::back_inserter(seen));
-  }
-  return seen;
 }
 
 }  // namespace tanglebin

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -31,10 +32,18 @@ Cropped crop(const PointCloud& cloud, const Support& support, const FilterSettin
 std::vector<std::size_t> downsample(const std::vector<std::size_t>& indices, double ratio,
                                     std::uint64_t seed);
 
-/// The positions, m, of the points that are left after downsampling, wherever they are: `filtered`, which was
-/// drawn from `cropped.kept`, and the same ratio of the others.
-std::vector<Eigen::Vector3f> points_seen(const PointCloud& cloud, const Cropped& cropped,
-                                         const std::vector<std::size_t>& filtered, double ratio,
-                                         std::uint64_t seed);
+/// Calls `see` with the index of each point that is left after downsampling, wherever it is: `filtered`,
+/// which was drawn from `cropped.kept`, and the same ratio of the others.
+template <typename See>
+void for_each_seen(const Cropped& cropped, const std::vector<std::size_t>& filtered, double ratio,
+                   std::uint64_t seed, const See& see) {
+  std::ranges::for_each(filtered, see);
+  for (const auto* others : {&cropped.support, &cropped.outside}) {
+    if (ratio == 1)
+      std::ranges::for_each(*others, see);
+    else
+      std::ranges::for_each(downsample(*others, ratio, seed), see);
+  }
+}
 
 }  // namespace tanglebin

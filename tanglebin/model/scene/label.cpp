@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/model/scene/box_grid.hpp"
@@ -103,16 +105,13 @@ std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::v
 }
 
 std::vector<std::int32_t> label_points(const PointCloud& cloud, const Cropped& cropped,
-                                       const std::vector<std::int32_t>& claimed,
-                                       const std::vector<Tube>& tubes, const LabelSettings& settings,
-                                       const OtherSurfaces& others) {
-  std::vector<std::int32_t> labels(cloud.points.size(), null_label);
+                                       std::vector<std::int32_t> claimed, const std::vector<Tube>& tubes,
+                                       const LabelSettings& settings, const OtherSurfaces& others) {
+  std::vector<std::int32_t> labels = std::move(claimed);
   for (const std::size_t point : cropped.support) labels[point] = bin_label;
   std::vector<std::size_t> rest;
-  for (const std::size_t point : cropped.kept) {
-    labels[point] = claimed[point];
-    if (claimed[point] == null_label) rest.push_back(point);
-  }
+  std::ranges::copy_if(cropped.kept, std::back_inserter(rest),
+                       [&](std::size_t point) { return labels[point] == null_label; });
   const std::vector<std::int32_t> nearest = label_by_nearest(cloud, rest, tubes, settings, others);
   for (std::size_t i = 0; i < rest.size(); ++i) labels[rest[i]] = nearest[i];
   for (const std::size_t point : cropped.near) {

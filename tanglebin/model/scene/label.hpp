@@ -29,11 +29,10 @@ std::vector<std::int32_t> label_by_nearest(const PointCloud& cloud, const std::v
                                            const OtherSurfaces& others = {});
 
 /// A label for each point of the cloud: bin_label on the support, null_label outside of the crop and without
-/// a position. Any other point gets its label in `claimed` or, if that is null, the label of the nearest
-/// surface. If there is none, a point within the support's margin gets bin_label too.
+/// a position. Any other point gets its label in `claimed`, which has null elsewhere, or if that is null, the
+/// label of the nearest surface. If there is none, a point within the support's margin gets bin_label too.
 std::vector<std::int32_t> label_points(const PointCloud& cloud, const Cropped& cropped,
-                                       const std::vector<std::int32_t>& claimed,
-                                       const std::vector<Tube>& tubes, const LabelSettings& settings,
-                                       const OtherSurfaces& others = {});
+                                       std::vector<std::int32_t> claimed, const std::vector<Tube>& tubes,
+                                       const LabelSettings& settings, const OtherSurfaces& others = {});
 
 }  // namespace tanglebin

@@ -10,7 +10,7 @@ namespace tanglebin {
 namespace {
 
 // Number of floats that readers of a run may read past its last point.
-constexpr std::size_t read_behind = 3;
+constexpr std::size_t read_behind = 4;
 
 /// A point's index and pixel.
 struct PointInPixel {

@@ -41,11 +41,14 @@ public:
   Run run(int row, int first, int last) const {
     first = std::max(first, left_);
     last = std::min(last, left_ + width_ - 1);
-    if (row < top_ || row >= top_ + height_ || first > last) return {};
+    if (row < top_ || row >= top_ + height_ || first > last) return no_run();
     const std::uint32_t begin = starts_[position_of({first, row})];
     const std::uint32_t end = starts_[position_of({last, row}) + 1];
     return {x_.data() + begin, y_.data() + begin, z_.data() + begin, static_cast<int>(end - begin), begin};
   }
+
+  /// A run without points.
+  Run no_run() const { return {x_.data(), y_.data(), z_.data(), 0, 0}; }
 
   /// The size in pixels of a length (m) at a point.
   double pixels_across(double length, const Eigen::Vector3f& point) const;

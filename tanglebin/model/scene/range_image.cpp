@@ -16,14 +16,16 @@ RangeImage::RangeImage(const std::vector<Eigen::Vector3f>& points, const Camera&
       end_row_(camera.height),
       depths_(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
               std::numeric_limits<float>::infinity()) {
-  for (const Eigen::Vector3f& point : points) {
-    const std::optional<SeenPixel> seen = seen_pixel(camera, point.cast<double>());
-    if (!seen) continue;
-    const auto [column, row] = seen->pixel;
-    float& nearest = depths_[static_cast<std::size_t>(row) * static_cast<std::size_t>(camera.width) +
-                             static_cast<std::size_t>(column)];
-    nearest = std::min(nearest, static_cast<float>(seen->depth));
-  }
+  for (const Eigen::Vector3f& point : points) add(point);
+}
+
+void RangeImage::add(const Eigen::Vector3f& point) {
+  const std::optional<SeenPixel> seen = seen_pixel(camera_, point.cast<double>());
+  if (!seen) return;
+  const auto [column, row] = seen->pixel;
+  float& nearest = depths_[static_cast<std::size_t>(row) * static_cast<std::size_t>(camera_.width) +
+                           static_cast<std::size_t>(column)];
+  nearest = std::min(nearest, static_cast<float>(seen->depth));
 }
 
 void RangeImage::keep_measured_rows() {

@@ -16,6 +16,9 @@ public:
   RangeImage(const std::vector<Eigen::Vector3f>& points, const Camera& camera,
              std::vector<Eigen::AlignedBox3d> solid = {});
 
+  /// One more point that the camera saw.
+  void add(const Eigen::Vector3f& point);
+
   /// True if the camera saw something nearer than the farther of two points (m, world frame) within `radius`
   /// pixels of the midpoint of their projections. False if a point is not in front of the camera.
   bool hides(const Eigen::Vector3d& first, const Eigen::Vector3d& second, int radius) const;

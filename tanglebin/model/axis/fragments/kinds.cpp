@@ -79,16 +79,20 @@ std::vector<std::vector<float>> radii_of_pieces(const std::vector<std::vector<st
 
 }  // namespace
 
-std::vector<std::vector<Vector3f>> points_by_kind(const std::vector<Vector3f>& points,
-                                                  const KnownScene& known, const VoteSettings& vote,
+std::vector<std::vector<Vector3f>> points_by_kind(std::vector<Vector3f> points, const KnownScene& known,
+                                                  const VoteSettings& vote,
                                                   const FragmentSettings& fragment) {
-  if (known.kinds.size() == 1) return {points};
+  std::vector<std::vector<Vector3f>> result;
+  if (known.kinds.size() == 1) {
+    result.push_back(std::move(points));
+    return result;
+  }
   const Radii known_radii = radii_of(known.kinds);
   const std::vector<std::vector<std::size_t>> found = pieces(points, known, known_radii, vote, fragment);
   std::vector<std::vector<float>> radii = radii_of_pieces(found, points, known.camera, known_radii);
 
   const Vector3f nothing = Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
-  std::vector<std::vector<Vector3f>> result(known.kinds.size(), std::vector(points.size(), nothing));
+  result.assign(known.kinds.size(), std::vector(points.size(), nothing));
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (radii[i].empty()) continue;
     std::vector<Vector3f>& of_kind = result[nearest_kind(known.kinds, median(std::move(radii[i])))];

@@ -10,30 +10,51 @@
 namespace tanglebin {
 namespace {
 
-/// The nearest point of each pixel of the image.
-struct DepthGrid {
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+/// Where a point is seen.
+struct ImagePoint {
+  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
-  std::size_t width;
-  std::size_t height;
-  std::vector<float> depths;          // m, row by row; NaN where there is no point
-  std::vector<std::uint32_t> points;  // none where there is none
+  std::uint32_t pixel = nowhere;  // row by row
+  float depth = 0;                // m
 };
 
-DepthGrid depth_grid(const std::vector<Eigen::Vector3f>& points, const Camera& camera) {
-  const auto width = static_cast<std::size_t>(camera.width);
-  const auto height = static_cast<std::size_t>(camera.height);
-  DepthGrid grid{width, height, std::vector(width * height, std::numeric_limits<float>::quiet_NaN()),
-                 std::vector(width * height, DepthGrid::none)};
+std::vector<ImagePoint> seen_by(const Camera& camera, const std::vector<Eigen::Vector3f>& points) {
+  std::vector<ImagePoint> result(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::optional<SeenPixel> seen = seen_pixel(camera, points[i].cast<double>());
     if (!seen) continue;
     const auto [column, row] = seen->pixel;
-    const std::size_t pixel = static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
-    const auto depth = static_cast<float>(seen->depth);
-    if (grid.depths[pixel] <= depth) continue;
-    grid.depths[pixel] = depth;
-    grid.points[pixel] = static_cast<std::uint32_t>(i);
+    result[i] = {static_cast<std::uint32_t>(row * camera.width + column), static_cast<float>(seen->depth)};
+  }
+  return result;
+}
+
+/// The depth of the nearest point in each pixel, of the rows of the image that have points.
+struct DepthGrid {
+  std::size_t first_row = 0;
+  std::size_t width = 0;
+  std::size_t height = 0;
+  std::vector<float> depths{};  // m, row by row; NaN where there is no point
+
+  std::size_t pixel_of(const ImagePoint& point) const { return point.pixel - first_row * width; }
+};
+
+DepthGrid depth_grid(const std::vector<ImagePoint>& points, const Camera& camera) {
+  std::uint32_t first = ImagePoint::nowhere;
+  std::uint32_t last = 0;
+  for (const auto& [pixel, depth] : points) {
+    if (pixel == ImagePoint::nowhere) continue;
+    first = std::min(first, pixel);
+    last = std::max(last, pixel);
+  }
+  if (first == ImagePoint::nowhere) return {};
+  const auto width = static_cast<std::size_t>(camera.width);
+  DepthGrid grid{first / width, width, last / width - first / width + 1};
+  grid.depths.assign(grid.width * grid.height, std::numeric_limits<float>::quiet_NaN());
+  for (const ImagePoint& point : points) {
+    if (point.pixel == ImagePoint::nowhere) continue;
+    float& nearest = grid.depths[grid.pixel_of(point)];
+    if (!(nearest <= point.depth)) nearest = point.depth;
   }
   return grid;
 }
@@ -45,7 +66,7 @@ bool is_mostly_deeper(const DepthGrid& grid, double depth) {
   return 2 * deeper >= all;
 }
 
-/// A line of pixels: a row or a column.
+/// Pixels one behind the other: of a row or a column.
 struct Line {
   std::size_t first;
   std::size_t stride;
@@ -71,22 +92,25 @@ public:
   RampFinder(const DepthGrid& grid, double pixel_angle, double radius, const RampSettings& settings)
       : grid_(grid), pixel_angle_(pixel_angle), radius_(radius), settings_(settings) {}
 
-  void look_along(const Line& line) {
-    std::size_t begin = 0;
-    int direction = 0;
-    for (std::size_t i = 0; i < line.count; ++i) {
-      const int next = i + 1 < line.count ? steep_step(line[i], line[i + 1]) : 0;
-      if (next == direction) continue;
-      if (direction != 0) add({line, begin, i, direction > 0});
-      begin = i;
-      direction = next;
-    }
+  void look_along_rows() {
+    look_along(1, [&](std::size_t pixel) { return pixel % grid_.width; });
+  }
+  void look_along_columns() {
+    look_along(grid_.width, [&](std::size_t pixel) { return pixel / grid_.width; });
   }
 
-  Ramps found(std::size_t points) const {
-    Ramps ramps{std::vector<bool>(points), 0};
+  Ramps found(const std::vector<ImagePoint>& points) const {
+    Ramps ramps{std::vector<bool>(points.size()), 0};
     if (edges_ > 0) ramps.blended = static_cast<double>(blended_) / static_cast<double>(edges_);
-    for (const Run& run : runs_) mark(run, ramps.points);
+    std::vector<std::uint8_t> marked(grid_.depths.size());
+    for (const Run& run : runs_) mark(run, marked);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].pixel == ImagePoint::nowhere) continue;
+      const std::size_t pixel = grid_.pixel_of(points[i]);
+      if (marked[pixel] == 0 || points[i].depth != grid_.depths[pixel]) continue;
+      ramps.points[i] = true;
+      marked[pixel] = 0;  // one point for each pixel
+    }
     return ramps;
   }
 
@@ -95,12 +119,55 @@ private:
 
   double drop_of(const Run& run) const { return depth(run, run.far_end()) - depth(run, run.near_end()); }
 
-  // Away from the camera: 1, towards it: −1, not steep or not known: 0.
-  int steep_step(std::size_t from, std::size_t to) const {
+  /// How the surface goes on from each pixel to the next of its line: away from the camera 1, towards it −1;
+  /// 0 if that is not steep or not known.
+  struct Steps {
+    std::vector<std::int8_t> of_pixels;
+    std::vector<std::size_t> steep;  // pixels, ascending
+  };
+
+  // `stride` leads from a pixel to the next.
+  Steps steps_along(std::size_t stride) const {
+    const std::vector<float>& depths = grid_.depths;
+    Steps steps{std::vector<std::int8_t>(depths.size()), {}};
+    // Most steps are not steep by far, which single precision shows fast.
+    constexpr double surely = 0.999;
+    const auto slope = static_cast<float>(surely * settings_.slope_min * pixel_angle_);
+    for (std::size_t i = 0; i + stride < depths.size(); ++i) {
+      const float from = depths[i];
+      const float to = depths[i + stride];
+      steps.of_pixels[i] = std::abs(to - from) > slope * std::min(from, to) ? 1 : 0;
+    }
+    if (stride == 1) {
+      for (std::size_t end = grid_.width; end <= depths.size(); end += grid_.width)
+        steps.of_pixels[end - 1] = 0;
+    }
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      if (steps.of_pixels[i] == 0) continue;
+      steps.of_pixels[i] = steep_step(i, i + stride);
+      if (steps.of_pixels[i] != 0) steps.steep.push_back(i);
+    }
+    return steps;
+  }
+
+  std::int8_t steep_step(std::size_t from, std::size_t to) const {
     const float step = grid_.depths[to] - grid_.depths[from];
     const double width = pixel_angle_ * std::min(grid_.depths[from], grid_.depths[to]);
     if (!(std::abs(step) > settings_.slope_min * width)) return 0;
     return step > 0 ? 1 : -1;
+  }
+
+  // A run begins where the step before is another one.
+  void look_along(std::size_t stride, const auto& place_on_line) {
+    const auto& [steps, steep] = steps_along(stride);
+    for (const std::size_t pixel : steep) {
+      const std::int8_t step = steps[pixel];
+      if (pixel >= stride && steps[pixel - stride] == step) continue;
+      const std::size_t begin = place_on_line(pixel);
+      std::size_t end = begin;
+      for (std::size_t i = pixel; steps[i] == step; i += stride) ++end;
+      add({{pixel - begin * stride, stride, stride == 1 ? grid_.width : grid_.height}, begin, end, step > 0});
+    }
   }
 
   void add(const Run& run) {
@@ -131,7 +198,7 @@ private:
   bool leads_nowhere(const Run& run) const {
     if (run.far_end() == (run.leads_down ? run.line.count - 1 : 0)) return true;
     const std::size_t behind = run.leads_down ? run.far_end() + 1 : run.far_end() - 1;
-    return grid_.points[run.line[behind]] == DepthGrid::none;
+    return std::isnan(depth(run, behind));
   }
 
   // A scanner that makes long ramps bends the surfaces beside them too.
@@ -141,16 +208,12 @@ private:
     return static_cast<std::size_t>(std::lround(settings_.beside * length));
   }
 
-  void mark(const Run& run, std::vector<bool>& points) const {
+  void mark(const Run& run, std::vector<std::uint8_t>& pixels) const {
     const std::size_t beside = reach_beside();
     const std::size_t first = run.begin + 1 > beside ? run.begin + 1 - beside : 0;
     const std::size_t last = std::min(run.end - 1 + beside, run.line.count - 1);
-    for (std::size_t i = first; i <= last; ++i) mark(run.line[i], points);
-    if (leads_nowhere(run)) mark(run.line[run.far_end()], points);
-  }
-
-  void mark(std::size_t pixel, std::vector<bool>& points) const {
-    if (grid_.points[pixel] != DepthGrid::none) points[grid_.points[pixel]] = true;
+    for (std::size_t i = first; i <= last; ++i) pixels[run.line[i]] = 1;
+    if (leads_nowhere(run)) pixels[run.line[run.far_end()]] = 1;
   }
 
   const DepthGrid& grid_;
@@ -168,15 +231,15 @@ private:
 
 Ramps find_ramps(const std::vector<Eigen::Vector3f>& points, const Camera& camera, double thinnest,
                  double thickest, const RampSettings& settings) {
-  const DepthGrid grid = depth_grid(points, camera);
+  const std::vector<ImagePoint> seen = seen_by(camera, points);
+  const DepthGrid grid = depth_grid(seen, camera);
   const double pixel_angle = 1 / std::max(camera.fx, camera.fy);
   if (is_mostly_deeper(grid, thinnest / (settings.pixels_min * pixel_angle)))
     return {std::vector<bool>(points.size()), 0};
   RampFinder finder(grid, pixel_angle, thickest, settings);
-  for (std::size_t row = 0; row < grid.height; ++row) finder.look_along({row * grid.width, 1, grid.width});
-  for (std::size_t column = 0; column < grid.width; ++column)
-    finder.look_along({column, grid.width, grid.height});
-  return finder.found(points.size());
+  finder.look_along_rows();
+  finder.look_along_columns();
+  return finder.found(seen);
 }
 
 }  // namespace tanglebin

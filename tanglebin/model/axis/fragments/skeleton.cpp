@@ -55,17 +55,22 @@ VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, const std::vec
   const Vector3d origin = Vector3d::Constant(shift * size);
   VoxelGrid grid{{}, std::vector(points.size(), no_index)};
   std::unordered_map<std::uint64_t, std::size_t> at;
+  std::size_t last = no_index;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) continue;
     const Vector3d point = points[i].cast<double>();
     const Vector3i key = voxel_at(point - origin, size);
-    const auto [found, is_new] = at.try_emplace(voxel_key(key), grid.voxels.size());
-    if (is_new) grid.voxels.push_back({key});
-    Voxel& voxel = grid.voxels[found->second];
+    // Most often, the next point is in the same voxel.
+    if (last == no_index || grid.voxels[last].key != key) {
+      const auto [found, is_new] = at.try_emplace(voxel_key(key), grid.voxels.size());
+      if (is_new) grid.voxels.push_back({key});
+      last = found->second;
+    }
+    Voxel& voxel = grid.voxels[last];
     voxel.sum += point;
     if (!normals.empty()) voxel.normals += normals[i].cast<double>();
     ++voxel.points;
-    grid.of_points[i] = found->second;
+    grid.of_points[i] = last;
   }
   const auto offsets = half_of_the_neighbours();
   for (std::size_t i = 0; i < grid.voxels.size(); ++i) {
