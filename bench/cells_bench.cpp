@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "bench/paper_sets.hpp"
+#include "bench/row.hpp"
 #include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/picked.hpp"
@@ -241,10 +242,7 @@ bool register_all() {
     for (const auto& [sensor_name, sensor] : sensors) {
       for (const auto& [told_name, told] : tellings) {
         const std::string name = cell.name + "/" + sensor_name + "/" + told_name;
-        benchmark::RegisterBenchmark(name.c_str(), model_cell, cell, sensor, told)
-            ->UseManualTime()
-            ->Iterations(1)
-            ->Unit(benchmark::kMillisecond);
+        add_row(name, model_cell, cell, sensor, told)->UseManualTime();
       }
     }
   }

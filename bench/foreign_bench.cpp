@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "bench/paper_sets.hpp"
+#include "bench/row.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/scan/scan_output.hpp"
@@ -160,11 +161,7 @@ bool register_all() {
   for (const Mixture& mixture : mixtures()) {
     for (const std::string camera : {"paper", "zivid-one-plus-l", "kinect-v1"}) {
       const Sensor sensor = camera == "paper" ? Sensor{} : sensor_preset(camera);
-      benchmark::RegisterBenchmark((mixture.name + "/" + camera).c_str(), model_heaps, mixture, camera,
-                                   sensor)
-          ->UseManualTime()
-          ->Iterations(1)
-          ->Unit(benchmark::kMillisecond);
+      add_row(mixture.name + "/" + camera, model_heaps, mixture, camera, sensor)->UseManualTime();
     }
   }
   return true;

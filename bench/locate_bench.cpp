@@ -20,6 +20,7 @@
 
 #include "bench/not_a_box.hpp"
 #include "bench/paper_sets.hpp"
+#include "bench/row.hpp"
 #include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/counter_random.hpp"
 #include "tanglebin/base/error.hpp"
@@ -273,39 +274,28 @@ void model_scenes(benchmark::State& state, const Scenes& scenes, int count) {
   state.counters["largest_loss"] = worst;
 }
 
-void register_scenes(const std::string& name, const Scenes& scenes, int count) {
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [=](benchmark::State& state) { locate_scenes(state, scenes, count); })
-      ->Iterations(1)
-      ->Unit(benchmark::kMillisecond);
-}
-
 // The settings of locate() were chosen on the scenes with seeds 7 and 8; those with seeds 2024 and 2025 are
 // reported.
 const bool registered = [] {
   for (const auto& [name, seed, some, many] :
        {std::tuple{"tuning", std::uint64_t{7}, 20, 40}, std::tuple{"report", std::uint64_t{2024}, 50, 100}}) {
     const std::string prefix = std::string(name) + "/";
-    register_scenes(prefix + "zivid-one-plus-l", {seed, "zivid-one-plus-l"}, many);
-    register_scenes(prefix + "kinect-v1", {seed, "kinect-v1"}, many);
-    register_scenes(prefix + "paper", {seed, "paper"}, some);
-    register_scenes(prefix + "other-cells", {seed, "zivid-one-plus-l", true}, some);
-    register_scenes(prefix + "not-a-box", {seed + 1, "zivid-one-plus-l", false, true}, some);
-    register_scenes(prefix + "other-cells-not-a-box", {seed + 1, "zivid-one-plus-l", true, true}, some);
-    for (const char* scanner : {"paper", "zivid-one-plus-l", "kinect-v1", "phoxi"}) {
-      register_scenes(prefix + "plane/" + scanner, {seed, scanner, true, false, Base::table}, some);
-      register_scenes(prefix + "no-table/" + scanner, {seed, scanner, true, false, Base::unseen}, some);
+    const auto add = [&prefix](const std::string& row, const Scenes& scenes, int count) {
+      add_row(prefix + row, locate_scenes, scenes, count);
+    };
+    add("zivid-one-plus-l", {seed, "zivid-one-plus-l"}, many);
+    add("kinect-v1", {seed, "kinect-v1"}, many);
+    add("paper", {seed, "paper"}, some);
+    add("other-cells", {seed, "zivid-one-plus-l", true}, some);
+    add("not-a-box", {seed + 1, "zivid-one-plus-l", false, true}, some);
+    add("other-cells-not-a-box", {seed + 1, "zivid-one-plus-l", true, true}, some);
+    for (const std::string scanner : {"paper", "zivid-one-plus-l", "kinect-v1", "phoxi"}) {
+      add("plane/" + scanner, {seed, scanner, true, false, Base::table}, some);
+      add("no-table/" + scanner, {seed, scanner, true, false, Base::unseen}, some);
     }
   }
-  for (const char* scanner : {"paper", "zivid-one-plus-l"}) {
-    const std::string name = std::string("recall/") + scanner;
-    benchmark::RegisterBenchmark(name.c_str(),
-                                 [=](benchmark::State& state) {
-                                   model_scenes(state, {2024, scanner}, 10);
-                                 })
-        ->Iterations(1)
-        ->Unit(benchmark::kMillisecond);
-  }
+  for (const std::string scanner : {"paper", "zivid-one-plus-l"})
+    add_row("recall/" + scanner, model_scenes, Scenes{2024, scanner}, 10);
   return true;
 }();
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bench/paper_sets.hpp"
+#include "bench/row.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
 #include "tanglebin/model/parameters.hpp"
 #include "tanglebin/scan/scan_output.hpp"
@@ -64,15 +65,8 @@ void model_with(benchmark::State& state, const PaperSettings& settings) {
   state.counters["recall_B"] = sum_b;
 }
 
-void register_run(const std::string& name, const PaperSettings& settings) {
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [settings](benchmark::State& state) { model_with(state, settings); })
-      ->Iterations(1)
-      ->Unit(benchmark::kMillisecond);
-}
-
 const bool registered = [] {
-  register_run("defaults", {});
+  add_row("defaults", model_with, PaperSettings{});
   for (const auto& [name, value] : parameters({})) {
     if (!name.starts_with("paper.")) continue;
     for (const auto& [suffix, factor] : {std::pair{"/half", 0.5}, std::pair{"/twice", 2.0}}) {
@@ -80,7 +74,7 @@ const bool registered = [] {
       const double scaled = is_count ? std::floor(value * factor) : value * factor;
       ModelSettings settings;
       set_parameter(settings, fmt::format("{}={}", name, scaled), name);
-      register_run(name + suffix, settings.paper);
+      add_row(name + suffix, model_with, settings.paper);
     }
   }
   return true;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bench/paper_sets.hpp"
+#include "bench/row.hpp"
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/model/axis/radius.hpp"
 #include "tanglebin/scan/scan_output.hpp"
@@ -80,12 +81,7 @@ bool register_all() {
     for (const auto support : {Support::Shape::bin, Support::Shape::nothing}) {
       for (const double millimetres : {2.0, 4.0, 6.0, 8.0, 12.5, 25.0, 40.0, 60.0}) {
         const std::string name = scanner + "/" + name_of(support) + "/" + std::to_string(millimetres) + "mm";
-        benchmark::RegisterBenchmark(name.c_str(), estimate, scanner, support, millimetres / 1e3)
-            ->Arg(1)
-            ->Arg(5)
-            ->Arg(20)
-            ->Iterations(1)
-            ->Unit(benchmark::kMillisecond);
+        add_row(name, estimate, scanner, support, millimetres / 1e3)->Arg(1)->Arg(5)->Arg(20);
       }
     }
   }

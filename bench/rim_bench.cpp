@@ -15,6 +15,7 @@
 
 #include "bench/not_a_box.hpp"
 #include "bench/paper_sets.hpp"
+#include "bench/row.hpp"
 #include "tanglebin/base/constants.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/scan/scan_output.hpp"
@@ -165,10 +166,7 @@ bool register_all() {
       {"not_a_box_5mm_along_x", not_a_box(moved(0.005, 0))},
       {"not_a_box_10mm_along_both", not_a_box(moved(0.01, 0.01))},
   };
-  for (const auto& [name, change] : rows)
-    benchmark::RegisterBenchmark(name.c_str(), count_warnings, change)
-        ->Iterations(1)
-        ->Unit(benchmark::kMillisecond);
+  for (const auto& [name, change] : rows) add_row(name, count_warnings, change);
   return true;
 }
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 
 namespace tanglebin {
@@ -27,8 +29,7 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return distances[from.size()][to.size()];
 }
 
-}  // namespace
-
+// One that differs in few characters or begins with the name, if there is any.
 std::optional<std::string_view> nearest_name(std::string_view name,
                                              const std::vector<std::string_view>& known) {
   const auto distance = [name](std::string_view other) { return edit_distance(name, other); };
@@ -41,10 +42,19 @@ std::optional<std::string_view> nearest_name(std::string_view name,
   return longer != known.end() ? std::optional(*longer) : std::nullopt;
 }
 
-std::string suggestion(std::string_view name, const std::vector<std::string_view>& known) {
+}  // namespace
+
+std::string suggestion(std::string_view name, const std::vector<std::string_view>& known,
+                       std::string_view expected) {
   if (const auto nearest = nearest_name(name, known))
     return fmt::format("did you mean {}?", excerpt(*nearest));
+  if (!expected.empty()) return fmt::format("expected {}", expected);
   return fmt::format("expected one of {}", fmt::join(known, ", "));
+}
+
+void reject_name(std::string_view name, const std::vector<std::string_view>& known,
+                 std::string_view expected) {
+  throw InputError({}, fmt::format("found {}, {}", excerpt(name), suggestion(name, known, expected)));
 }
 
 }  // namespace tanglebin

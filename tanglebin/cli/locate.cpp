@@ -95,7 +95,7 @@ std::vector<Output> outputs(const LocateArguments& arguments) {
 
 void locate_in_cloud(const LocateArguments& arguments) {
   expect_outputs(outputs(arguments),
-                 {arguments.cloud, arguments.scene.scene.value_or(""), arguments.scene.camera.value_or("")});
+                 inputs_with(arguments.scene.scene, {arguments.cloud, arguments.scene.camera.value_or("")}));
   const Scene told = scene_of(arguments.scene, arguments.cloud);
   const Measurement measured =
       read_input(arguments.cloud, [&](auto&&... from) { return read_measurement(from..., told); });

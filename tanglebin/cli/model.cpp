@@ -124,8 +124,8 @@ std::vector<Output> outputs(const ModelArguments& arguments) {
 
 void model_cloud(const ModelArguments& arguments) {
   expect_outputs(outputs(arguments),
-                 {arguments.cloud, arguments.model.profile, arguments.scene.scene.value_or(""),
-                  arguments.scene.camera.value_or("")});
+                 inputs_with(arguments.scene.scene, {arguments.cloud, arguments.model.profile,
+                                                     arguments.scene.camera.value_or("")}));
   const Profile profile = profile_of(arguments.model, {method_named(arguments.method)});
   const ModelSettings settings = model_settings(arguments, profile);
   const Scene told = scene_of(arguments.scene, arguments.cloud);

@@ -50,7 +50,7 @@ Picture draw(const CloudOrTubes& input, const Options& options) {
 }
 
 void run(const Options& options) {
-  expect_outputs({{"--out", options.out, {".png"}}}, {options.input});
+  expect_outputs({{"--out", options.out, {".png"}}}, inputs_with(options.scene, {options.input}));
   const Picture picture = draw(read_cloud_or_tubes(options.input), options);
   write_output(options.out, color_png(picture.width, picture.height, picture.pixels));
 }

@@ -193,7 +193,7 @@ Setting setting_of(const ScanArguments& arguments) {
 }
 
 void scan_configuration(const ScanArguments& arguments) {
-  expect_outputs(outputs(arguments), {arguments.configuration});
+  expect_outputs(outputs(arguments), inputs_with(arguments.scene, {arguments.configuration}));
   const auto [scanner, support] = setting_of(arguments);
   const std::uint64_t seed = seed_of(arguments);
   const std::vector<Tube> tubes =

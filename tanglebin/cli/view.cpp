@@ -114,7 +114,7 @@ ViewedScene scene_of(const ViewArguments& arguments) {
 }
 
 void view(const ViewArguments& arguments) {
-  expect_outputs({{"--out", arguments.out, {".html"}}}, {arguments.input});
+  expect_outputs({{"--out", arguments.out, {".html"}}}, inputs_with(arguments.scene, {arguments.input}));
   write_output(arguments.out, view_page(scene_of(arguments)));
 }
 

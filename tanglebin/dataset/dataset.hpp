@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
 #include "tanglebin/dataset/catalogue.hpp"
+#include "tanglebin/dataset/manifest.hpp"
 #include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/recipe/recipe.hpp"
 
@@ -21,6 +23,9 @@ struct Dataset {
 
 /// The recipe in a dataset's directory.
 inline constexpr const char* recipe_name = "recipe.toml";
+
+/// The dataset's own files beside the folders of its cases.
+inline constexpr std::array dataset_files{recipe_name, summary_name, manifest_name, times_name, failed_name};
 
 /// Reads it. Throws InputError if it is missing, no regular file, or no recipe.
 Recipe recipe_in(const std::filesystem::path& directory);

@@ -8,7 +8,8 @@
 namespace tanglebin {
 
 /// Makes the broken cases that verify_dataset() found again, and no others, and updates manifest and digest.
-/// Throws as generate_dataset() does.
+/// Throws InputError, and changes nothing, if a directory is where a file belongs or the other way round;
+/// else throws as generate_dataset() does.
 FillSummary repair_dataset(const std::filesystem::path& directory, const VerifySummary& found, int jobs,
                            const RunObserver& observer = {});
 

@@ -245,13 +245,13 @@ private:
 
   // Beside the folders of cases, where the user may keep files, too.
   void find_strays() {
-    const std::set<std::string> own{recipe_name, summary_name, manifest_name, times_name, failed_name};
     const std::set<std::string> kinds{".toml", ".json", ".jsonl"};
     for (const fs::directory_entry& entry : fs::directory_iterator(directory_)) {
       const std::string name = entry.path().filename().string();
+      const bool is_own = std::ranges::find(dataset_files, name) != dataset_files.end();
       const bool looks_own = entry.is_regular_file() && kinds.contains(entry.path().extension().string());
       const bool is_journal = std::ranges::find(journals_, entry.path()) != journals_.end();
-      if (looks_own && !own.contains(name) && !is_journal) note(name, "is none of the dataset's files");
+      if (looks_own && !is_own && !is_journal) note(name, "is none of the dataset's files");
     }
   }
 

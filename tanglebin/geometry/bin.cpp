@@ -8,7 +8,6 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/millimetres.hpp"
 #include "tanglebin/base/suggestion.hpp"
-#include "tanglebin/base/text.hpp"
 
 namespace tanglebin {
 namespace {
@@ -32,7 +31,7 @@ void validate_size(const char* field, double metres, double least) {
 Bin bin_preset(std::string_view name) {
   if (name == "paper") return Bin{};
   if (name == "published") return Bin{.length = 0.80, .width = 0.60};
-  throw InputError({}, "found " + excerpt(name) + ", " + suggestion(name, {"paper", "published"}));
+  reject_name(name, {"paper", "published"});
 }
 
 std::array<Eigen::AlignedBox3d, 5> boxes(const Bin& bin) {

@@ -6,10 +6,8 @@
 #include <string>
 #include <tuple>
 
-#include "tanglebin/base/error.hpp"
 #include "tanglebin/base/expect.hpp"
 #include "tanglebin/base/suggestion.hpp"
-#include "tanglebin/base/text.hpp"
 #include "tanglebin/geometry/rigid.hpp"
 
 namespace tanglebin {
@@ -83,8 +81,7 @@ Camera camera_preset(std::string_view name) {
   if (name == "zivid-one-plus-l") return downward_camera(width, height, 2730, position);
   if (name == "kinect-v1") return downward_camera(640, 480, 585, Vector3d(0, 0, 1));
   if (name == "phoxi") return tilted(downward_camera(2064, 1544, 2430, Vector3d(0, 0, 1.2)), 11.9);
-  throw InputError({}, "found " + excerpt(name) + ", " +
-                           suggestion(name, {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1", "phoxi"}));
+  reject_name(name, {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1", "phoxi"});
 }
 
 Ray ray_through(const Camera& camera, double u, double v) {

@@ -296,10 +296,7 @@ void set(Value& parameter, double value, const Declaration& of) {
   std::vector<std::string_view> names;
   names.reserve(known.size());
   for (const auto& [known_name, value] : known) names.push_back(known_name);
-  if (const auto nearest = nearest_name(name, names))
-    throw InputError({"", 0, ""},
-                     fmt::format("found {}, did you mean {}?", excerpt(name), excerpt(*nearest)));
-  throw InputError({"", 0, ""}, excerpt(name), fmt::format("a parameter listed in {}", list_of_parameters));
+  reject_name(name, names, fmt::format("a parameter listed in {}", list_of_parameters));
 }
 
 }  // namespace

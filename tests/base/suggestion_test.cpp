@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/complaint.hpp"
+
 namespace tanglebin {
 namespace {
 
@@ -13,9 +15,22 @@ TEST(Suggestion, NamesWhatDiffersInFewCharactersOrIsLonger) {
   EXPECT_EQ(suggestion("exp", {"score", "experiment"}), "did you mean 'experiment'?");
 }
 
-TEST(Suggestion, ElseListsWhatThereIs) {
+TEST(Suggestion, ElseListsWhatThereIsOrSaysWhatIsExpected) {
   EXPECT_EQ(suggestion("fly", {"merge", "generate"}), "expected one of merge, generate");
   EXPECT_EQ(suggestion("", {"merge", "generate"}), "expected one of merge, generate");
+  EXPECT_EQ(suggestion("fly", {"merge", "generate"}, "a command"), "expected a command");
+  EXPECT_EQ(suggestion("generat", {"merge", "generate"}, "a command"), "did you mean 'generate'?");
+}
+
+TEST(Suggestion, RejectsAName) {
+  EXPECT_EQ(test::complaint([] {
+              reject_name("scam", {"score", "scan"});
+            }),
+            "found 'scam', did you mean 'scan'?");
+  EXPECT_EQ(test::complaint([] {
+              reject_name("fly", {"score", "scan"}, "a command");
+            }),
+            "found 'fly', expected a command");
 }
 
 }  // namespace

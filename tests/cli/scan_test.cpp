@@ -279,6 +279,23 @@ TEST_F(ScanCommand, ScansAsASceneFileSays) {
   EXPECT_EQ(run_program(command + " --bin paper").status, 64);
 }
 
+TEST_F(ScanCommand, DoesNotOverwriteItsSceneOrTheScenesCamera) {
+  const std::string scene = (directory_ / "scene.ply").string();
+  const std::string camera = (directory_ / "camera.json").string();
+  write_bytes(scene, "[camera]\nfile = \"camera.json\"\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\n");
+  write_bytes(camera, R"({"fx": 500, "fy": 500, "cx": 100, "cy": 75, "width": 200, "height": 150})");
+  const auto before = files_below(directory_.path());
+  for (const auto& [options, complaint] : std::vector<std::pair<std::string, std::string>>{
+           {"--out " + scene, "--out: found '" + scene + "', which is also an input"},
+           {"--out " + (directory_ / "out.ply").string() + " --depth " + (directory_ / "camera.png").string(),
+            "--depth: found '" + camera + "', which is also an input"}}) {
+    const auto result = run_program("scan " + configuration_.string() + " --scene " + scene + " " + options);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr(complaint));
+  }
+  EXPECT_EQ(files_below(directory_.path()), before);
+}
+
 TEST_F(ScanCommand, TakesEveryPublishedFile) {
   const auto files = published_files();
   if (files.empty()) GTEST_SKIP() << "no published files in " << TANGLEBIN_PUBLISHED;

@@ -12,6 +12,8 @@
 namespace tanglebin {
 namespace {
 
+using test::bytes_of;
+using test::files_below;
 using test::ProgramResult;
 using test::run_program;
 using test::run_shell;
@@ -62,6 +64,46 @@ TEST_F(Verify, EndsWithFourAndAListOtherwiseAndRepairs) {
   EXPECT_EQ(repaired.status, 0) << repaired.out;
   EXPECT_THAT(repaired.out, HasSubstr("2 cases regenerated, no faults found\n"));
   EXPECT_EQ(nlohmann::json::parse(verify("--json").out)["digest"], whole["digest"]);
+}
+
+// It may be somebody's, so the dataset stays as it is.
+TEST_F(Verify, DoesNotRepairWhereADirectoryIsInTheWayOfAFile) {
+  std::filesystem::remove(path("dataset/A2/gazebo_worlds/1.world"));
+  for (const std::string file : {"dataset/A2/plys/2.ply", "dataset/dataset.json"}) {
+    const std::string bytes = bytes_of(path(file));
+    std::filesystem::remove(path(file));
+    std::filesystem::create_directory(path(file));
+    write_bytes(path(file) + "/notes.txt", "of somebody");
+    const auto before = files_below(path("dataset"));
+    const ProgramResult result = verify("--repair");
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.err, "tanglebin: " + path(file) + ": found a directory, expected a file or nothing\n");
+    EXPECT_EQ(files_below(path("dataset")), before);
+    std::filesystem::remove_all(path(file));
+    write_bytes(path(file), bytes);
+  }
+  EXPECT_THAT(verify("--repair").out, HasSubstr("1 case regenerated, no faults found\n"));
+}
+
+TEST_F(Verify, DoesNotRepairWhereAFileIsInTheWayOfAFolder) {
+  std::filesystem::remove_all(path("dataset/A2/plys"));
+  write_bytes(path("dataset/A2/plys"), "of somebody");
+  const auto before = files_below(path("dataset"));
+  const ProgramResult result = verify("--repair");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err, "tanglebin: " + path("dataset/A2/plys") + ": found a file, expected a directory\n");
+  EXPECT_EQ(files_below(path("dataset")), before);
+}
+
+TEST_F(Verify, ReplacesALinkButNotTheDirectoryThatItLeadsTo) {
+  std::filesystem::remove(path("dataset/A2/plys/2.ply"));
+  std::filesystem::create_directory(path("elsewhere"));
+  write_bytes(path("elsewhere/notes.txt"), "of somebody");
+  std::filesystem::create_directory_symlink(path("elsewhere"), path("dataset/A2/plys/2.ply"));
+  EXPECT_EQ(verify("--repair").status, 0);
+  EXPECT_TRUE(
+      std::filesystem::is_regular_file(std::filesystem::symlink_status(path("dataset/A2/plys/2.ply"))));
+  EXPECT_EQ(bytes_of(path("elsewhere/notes.txt")), "of somebody");
 }
 
 TEST_F(Verify, SaysAfterARepairWhatIsStillWrong) {

@@ -164,6 +164,22 @@ Scene scene_of_file(const std::string& file, const std::string& input) {
   return is_recipe(path) ? scene_of_recipe(path) : read_scene(path, number_of(input));
 }
 
+// The dataset that --scene names, itself or by one of its cases.
+std::optional<fs::path> dataset_named(const fs::path& scene) {
+  if (is_dataset(scene)) return scene;
+  const std::optional<CasePath> named = case_path(scene);
+  return named ? std::optional(named->dataset) : std::nullopt;
+}
+
+// The camera file that a scene file names.
+std::optional<fs::path> camera_file_in(const fs::path& scene) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(scene, ignored)) return std::nullopt;
+  const toml::table tree = parse_toml(read_file(scene), scene.string());
+  const auto name = tree["camera"]["file"].value<std::string>();
+  return name ? std::optional(scene.parent_path() / *name) : std::nullopt;
+}
+
 void expect_one_scanner(const fs::path& file) {
   if (!is_recipe(file)) return;
   const std::size_t count = scanners(read_recipe(file)).size();
@@ -288,6 +304,20 @@ void add_tube_options(CLI::App& command, SceneOptions& options) {
       ->allow_extra_args(false)
       ->excludes(length)
       ->option_text("SEGMENTS");
+}
+
+std::vector<std::string> inputs_with(const std::optional<std::string>& scene,
+                                     std::vector<std::string> inputs) {
+  if (!scene) return inputs;
+  inputs.push_back(*scene);
+  const fs::path path = without_slash(*scene);
+  if (const auto dataset = dataset_named(path)) {
+    inputs.push_back(dataset->string());
+    for (const char* name : dataset_files) inputs.push_back((*dataset / name).string());
+  } else if (const auto camera = camera_file_in(path)) {
+    inputs.push_back(camera->string());
+  }
+  return inputs;
 }
 
 std::optional<DatasetCase> dataset_case(const std::string& name) {

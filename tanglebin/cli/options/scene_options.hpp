@@ -36,6 +36,11 @@ void add_camera_options(CLI::App& command, SceneOptions& options);
 /// Adds --radius, --length and --tree, which fill `options`.
 void add_tube_options(CLI::App& command, SceneOptions& options);
 
+/// These inputs and, if there is a --scene, what is read for it: the scene file and the camera file that this
+/// names, or the dataset and its own files.
+std::vector<std::string> inputs_with(const std::optional<std::string>& scene,
+                                     std::vector<std::string> inputs);
+
 /// The scene that --scene names: a scene file, a recipe, a dataset's case as DATASET/A10/1, with the
 /// scanner's name if there are several (DATASET/A10/left/1), or a dataset in which `input`, a file, is.
 /// Throws InputError naming what is wrong with it.

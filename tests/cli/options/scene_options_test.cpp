@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -77,7 +78,6 @@ bend_max_deg = 30
 
   static constexpr const char* both = "dataset/A2/above/1 or dataset/A2/aslant/1";
 
-private:
   static std::unique_ptr<test::TemporaryDirectory> directory_;
 };
 
@@ -121,6 +121,27 @@ TEST_F(CaseOfTwoScanners, IsScannedAgainByTheScannerThatSawIt) {
   const std::string ideal = cloud_of(aslant + " --parameter scanner.sigma=0");
   EXPECT_FALSE(ideal == bytes_of("dataset/A2/aslant/plys/1.ply"));
   EXPECT_TRUE(ideal == cloud_of(aslant + " --scanner paper")) << "the camera is the scene's";
+}
+
+// An output may lead to a dataset's file by a link, and the camera of --depth is beside its image.
+TEST_F(CaseOfTwoScanners, IsNotOverwrittenByWhatIsMadeOfIt) {
+  const std::map<std::string, std::string> before = test::files_below(*directory_ / "dataset");
+  for (const std::string link : {"link.html", "link.png", "link.txt"})
+    std::filesystem::create_symlink("dataset/manifest.jsonl", *directory_ / link);
+  const std::string tubes = " dataset/A2/tube_configurations/1.txt ";
+  const std::string cloud = " dataset/A2/above/plys/1.ply ";
+  for (const std::string scene : {"dataset", "dataset/", "dataset/A2/above/1"}) {
+    for (const std::string& command : {
+             "locate" + cloud + "--out dataset/recipe.toml",
+             "model" + cloud + "--out out.ply --modelled-tubes dataset/dataset.json",
+             "model" + cloud + "--out out.ply --modelled-tubes link.txt",
+             "scan" + tubes + "--out out.ply --depth dataset/dataset.png",
+             "view" + tubes + "--out link.html",
+             "preview" + tubes + "--out link.png",
+         })
+      EXPECT_THAT(complaint(command + " --scene " + scene), HasSubstr("which is also an input"));
+  }
+  EXPECT_EQ(test::files_below(*directory_ / "dataset"), before);
 }
 
 TEST_F(CaseOfTwoScanners, HasOneBinWhoeverLooks) {
