@@ -38,10 +38,11 @@ Window window_at(const PixelGrid& grid, std::size_t item, double reach) {
   const auto pixels = static_cast<int>(std::lround(grid.pixels_across(reach, point)));
   const int step = std::max(1, pixels / samples);
   Window around{{}, (grid.camera().pose.translation() - point.cast<double>()).normalized()};
+  const PixelGrid::Window window = grid.window({column, row}, pixels);
   for (int v = row - pixels; v <= row + pixels; v += step) {
-    const PixelGrid::Run run = grid.run(v, column - pixels, column + pixels);
-    for (int i = 0; i < run.size; i += step) {
-      const Vector3d way = (Eigen::Vector3f(run.x[i], run.y[i], run.z[i]) - point).cast<double>();
+    const PixelGrid::Run run = window.row(v);
+    for (std::size_t i = 0; i < run.size; i += static_cast<std::size_t>(step)) {
+      const Vector3d way = (grid.point(run.first + i) - point).cast<double>();
       if (around.aside(way) <= width * width && std::abs(way.dot(around.view)) <= depth)
         around.points.push_back(way);
     }

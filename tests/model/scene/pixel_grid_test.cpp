@@ -14,27 +14,32 @@ namespace {
 using test::small_camera;
 using testing::IsEmpty;
 
-std::vector<Eigen::Vector3f> points_of(const PixelGrid::Run& run) {
+std::vector<Eigen::Vector3f> points_in(const PixelGrid& grid, const PixelGrid::Run& run) {
   std::vector<Eigen::Vector3f> found;
-  for (int i = 0; i < run.size; ++i) found.emplace_back(run.x[i], run.y[i], run.z[i]);
+  for (std::size_t i = 0; i < run.size; ++i) found.push_back(grid.point(run.first + i));
   return found;
 }
 
 TEST(PixelGrid, FindsPointsByTheirPixels) {
   const std::vector<Eigen::Vector3f> points = {{0, 0, 0}, {0.002F, 0, 0}, {0, -0.002F, 0}, {0, 0, 0.1F}};
   const PixelGrid grid(points, small_camera());
-  EXPECT_THAT(points_of(grid.run(50, 50, 50)), testing::ElementsAre(points[0], points[3]));
-  EXPECT_THAT(points_of(grid.run(50, 0, 100)), testing::ElementsAre(points[0], points[3], points[1]));
-  EXPECT_THAT(points_of(grid.run(51, -10, 1000)), testing::ElementsAre(points[2]));
-  EXPECT_THAT(points_of(grid.run(52, 0, 100)), IsEmpty());
-  EXPECT_THAT(points_of(grid.run(-1, 0, 100)), IsEmpty());
+  const auto row_around = [&](const PixelPosition& middle, int reach, int row) {
+    return points_in(grid, grid.window(middle, reach).row(row));
+  };
+  EXPECT_THAT(row_around({50, 50}, 0, 50), testing::ElementsAre(points[0], points[3]));
+  EXPECT_THAT(row_around({50, 50}, 50, 50), testing::ElementsAre(points[0], points[3], points[1]));
+  EXPECT_THAT(row_around({500, 51}, 510, 51), testing::ElementsAre(points[2]));
+  EXPECT_THAT(row_around({50, 50}, 0, 51), IsEmpty());
+  EXPECT_THAT(row_around({50, 50}, 50, 52), IsEmpty());
+  EXPECT_THAT(row_around({50, 50}, 50, -1), IsEmpty());
+  EXPECT_EQ(grid.window({500, 500}, 10).rows(), 0);
 }
 
 TEST(PixelGrid, LeavesOutWhatTheCameraCannotSee) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const PixelGrid grid({{1, 0, 0}, {0, 0, 3}, {nan, nan, nan}}, small_camera());
   EXPECT_EQ(grid.size(), 0U);
-  EXPECT_THAT(points_of(grid.run(50, 0, 100)), IsEmpty());
+  EXPECT_EQ(grid.window({50, 50}, 50).rows(), 0);
 }
 
 TEST(PixelGrid, KnowsHowWideALengthAppears) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -36,7 +35,7 @@ struct LaneMatrices {
 };
 
 // Of two points, four neighbours each.
-constexpr int neighbours = lanes / 2;
+constexpr std::size_t neighbours = lanes / 2;
 
 // Not returned, because without AVX2 there is no common way to return so much.
 [[gnu::always_inline]] inline void load(Lanes& to, const float* of_first, const float* of_second) {
@@ -54,31 +53,34 @@ struct Sums {
   LaneVectors vectors;
   LaneMatrices products;
 
-  [[gnu::always_inline]] void add(const PixelGrid::Run& first, const PixelGrid::Run& second,
-                                  const LaneVectors& points, float reach_squared) {
+  [[gnu::always_inline]] void add(const PixelGrid& grid, const PixelGrid::Run& first,
+                                  const PixelGrid::Run& second, const LaneVectors& points,
+                                  float reach_squared) {
     constexpr LaneNumbers numbers = {0, 1, 2, 3, 0, 1, 2, 3};
-    const LaneNumbers sizes = {first.size,  first.size,  first.size,  first.size,
-                               second.size, second.size, second.size, second.size};
-    const int full = std::min(first.size, second.size) / neighbours * neighbours;
-    for (int i = 0; i < full; i += neighbours)
-      add(first, i, second, i, LaneNumbers{} == LaneNumbers{}, points, reach_squared);
-    for (int i = full; i < std::max(first.size, second.size); i += neighbours)
-      add(first, i < first.size ? i : 0, second, i < second.size ? i : 0, numbers + i < sizes, points,
-          reach_squared);
+    const auto a = static_cast<int>(first.size);
+    const auto b = static_cast<int>(second.size);
+    const LaneNumbers sizes = {a, a, a, a, b, b, b, b};
+    const std::size_t full = std::min(first.size, second.size) / neighbours * neighbours;
+    for (std::size_t i = 0; i < full; i += neighbours)
+      add_some(grid, first.first + i, second.first + i, ~LaneNumbers{}, points, reach_squared);
+    for (std::size_t i = full; i < std::max(first.size, second.size); i += neighbours)
+      add_some(grid, i < first.size ? first.first + i : 0, i < second.size ? second.first + i : 0,
+               numbers + static_cast<int>(i) < sizes, points, reach_squared);
   }
 
 private:
-  [[gnu::always_inline]] void add(const PixelGrid::Run& first, int of_first, const PixelGrid::Run& second,
-                                  int of_second, const LaneNumbers& exists, const LaneVectors& points,
-                                  float reach_squared) {
+  // Those that exist of the neighbours from these items on.
+  [[gnu::always_inline]] void add_some(const PixelGrid& grid, std::size_t of_first, std::size_t of_second,
+                                       const LaneNumbers& exist, const LaneVectors& points,
+                                       float reach_squared) {
     LaneVectors seen;
-    load(seen.x, first.x + of_first, second.x + of_second);
-    load(seen.y, first.y + of_first, second.y + of_second);
-    load(seen.z, first.z + of_first, second.z + of_second);
+    load(seen.x, grid.x() + of_first, grid.x() + of_second);
+    load(seen.y, grid.y() + of_first, grid.y() + of_second);
+    load(seen.z, grid.z() + of_first, grid.z() + of_second);
     const Lanes dx = seen.x - points.x;
     const Lanes dy = seen.y - points.y;
     const Lanes dz = seen.z - points.z;
-    const LaneNumbers is_near = (dx * dx + dy * dy + dz * dz <= reach_squared) & exists;
+    const LaneNumbers is_near = (dx * dx + dy * dy + dz * dz <= reach_squared) & exist;
     const Lanes x = is_near ? dx : Lanes{};
     const Lanes y = is_near ? dy : Lanes{};
     const Lanes z = is_near ? dz : Lanes{};
@@ -95,38 +97,33 @@ private:
   }
 };
 
-/// The part of the image where a point's neighbours are.
-struct Window {
-  PixelPosition middle;
-  int reach;  // pixels, to each side
+// Rounded up from half a pixel, because points need not lie at the centres of their pixels.
+PixelGrid::Window window_around(const PixelGrid& grid, std::size_t item, float reach) {
+  const double pixels = grid.pixels_across(reach, grid.point(item));
+  return grid.window(grid.pixels()[item], static_cast<int>(std::lround(pixels)));
+}
 
-  Window(const PixelGrid& grid, std::size_t item, float metres)
-      : middle(grid.pixels()[item]),
-        // Rounded up from half a pixel, because points need not lie at the centres of their pixels.
-        reach(static_cast<int>(std::lround(grid.pixels_across(metres, grid.point(item))))) {}
-
-  PixelGrid::Run row(const PixelGrid& grid, int number) const {
-    constexpr int points_max = 1000;  // there are more only where a camera that is none has many in a pixel
-    if (std::abs(number) > reach) return grid.no_run();
-    PixelGrid::Run run = grid.run(middle.row + number, middle.column - reach, middle.column + reach);
-    run.size = std::min(run.size, points_max);
-    return run;
-  }
-};
+// A row has more points than the most only where a camera that is none has many in a pixel.
+PixelGrid::Run row_of(const PixelGrid::Window& window, int number) {
+  constexpr std::size_t most = 1000;
+  PixelGrid::Run row = window.row(window.first_row() + number);
+  row.size = std::min(row.size, most);
+  return row;
+}
 
 [[gnu::always_inline]] inline Sums sums_around(const PixelGrid& grid, std::size_t first, std::size_t second,
                                                float reach) {
-  const Window of_first(grid, first, reach);
-  const Window of_second(grid, second, reach);
+  const PixelGrid::Window of_first = window_around(grid, first, reach);
+  const PixelGrid::Window of_second = window_around(grid, second, reach);
   const Vector3f a = grid.point(first);
   const Vector3f b = grid.point(second);
   const LaneVectors points{{a.x(), a.x(), a.x(), a.x(), b.x(), b.x(), b.x(), b.x()},
                            {a.y(), a.y(), a.y(), a.y(), b.y(), b.y(), b.y(), b.y()},
                            {a.z(), a.z(), a.z(), a.z(), b.z(), b.z(), b.z(), b.z()}};
-  const int rows = std::max(of_first.reach, of_second.reach);
+  const int rows = std::max(of_first.rows(), of_second.rows());
   Sums sums;
-  for (int row = -rows; row <= rows; ++row)
-    sums.add(of_first.row(grid, row), of_second.row(grid, row), points, reach * reach);
+  for (int row = 0; row < rows; ++row)
+    sums.add(grid, row_of(of_first, row), row_of(of_second, row), points, reach * reach);
   return sums;
 }
 

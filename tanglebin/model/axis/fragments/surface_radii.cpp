@@ -48,8 +48,8 @@ std::vector<PairRadius> radii_of_pairs(const PixelGrid& grid, double radius, con
     const auto [column, row] = grid.pixels()[item];
     const int across = static_cast<int>(std::ceil(grid.pixels_across(distance, grid.point(item))));
     for (const auto& [u, v] : {std::pair{column + across, row}, {column, row + across}}) {
-      const PixelGrid::Run others = grid.run(v, u, u);
-      const std::size_t end = others.first + static_cast<std::size_t>(others.size);
+      const PixelGrid::Run others = grid.window({u, v}, 0).row(v);
+      const std::size_t end = others.first + others.size;
       for (std::size_t other = others.first; other < end; ++other) {
         if (!surface.patches[other]) continue;
         const auto found = radius_of_pair(surface, item, other, slope * distance);
