@@ -4,12 +4,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
 #include "tanglebin/geometry/capsule.hpp"
+#include "tanglebin/geometry/nearest_axis.hpp"
 
 namespace tanglebin {
 namespace {
@@ -24,24 +24,23 @@ using Section = std::vector<Vector2d>;
 /// The sections of a tube's pieces. Pieces are about two radii long.
 class Sections {
 public:
-  explicit Sections(const Tube& tube) : capsules_(capsules(tube)) {
+  explicit Sections(const std::vector<Capsule>& capsules) : capsules_(capsules) {
     for (const Capsule& capsule : capsules_) {
-      const double pieces = std::max(1.0, std::round((capsule.b - capsule.a).norm() / (2 * tube.radius)));
+      const double pieces = std::max(1.0, std::round((capsule.b - capsule.a).norm() / (2 * capsule.radius)));
       of_capsules_.emplace_back(static_cast<std::size_t>(pieces));
     }
   }
 
   // Points beyond the ends of a cylinder may be on a cap, a face or the outside of a bend.
-  void add(const Vector3d& point, const Vector3d& sensor) {
-    const Nearest nearest = nearest_to(point);
-    if (!(nearest.t > 0 && nearest.t < 1)) return;
-    const Capsule& capsule = capsules_[nearest.capsule];
+  void add(const Vector3d& point, const Foot& foot, const Vector3d& sensor) {
+    if (!(foot.t > 0 && foot.t < 1)) return;
+    const Capsule& capsule = capsules_[foot.capsule];
     const Vector3d along = (capsule.b - capsule.a).normalized();
     const Vector3d side = along.cross(sensor - point).normalized();
     const Vector3d front = side.cross(along);
-    std::vector<Section>& pieces = of_capsules_[nearest.capsule];
-    const auto piece = static_cast<std::size_t>(nearest.t * static_cast<double>(pieces.size()));
-    pieces[std::min(piece, pieces.size() - 1)].emplace_back(nearest.way.dot(side), nearest.way.dot(front));
+    std::vector<Section>& pieces = of_capsules_[foot.capsule];
+    const auto piece = static_cast<std::size_t>(foot.t * static_cast<double>(pieces.size()));
+    pieces[std::min(piece, pieces.size() - 1)].emplace_back(foot.way.dot(side), foot.way.dot(front));
   }
 
   const std::vector<std::vector<Section>>& of_capsules() const { return of_capsules_; }
@@ -53,27 +52,7 @@ public:
   }
 
 private:
-  /// The capsule whose axis a point is nearest to.
-  struct Nearest {
-    std::size_t capsule;
-    double t;      // of the point on the axis, from 0 to 1
-    Vector3d way;  // m, from there
-  };
-
-  Nearest nearest_to(const Vector3d& point) const {
-    Nearest nearest{};
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < capsules_.size(); ++i) {
-      const double t = nearest_on_axis(capsules_[i], point);
-      const Vector3d way = point - (capsules_[i].a + t * (capsules_[i].b - capsules_[i].a));
-      if (way.squaredNorm() >= least) continue;
-      least = way.squaredNorm();
-      nearest = {i, t, way};
-    }
-    return nearest;
-  }
-
-  std::vector<Capsule> capsules_;
+  const std::vector<Capsule>& capsules_;
   std::vector<std::vector<Section>> of_capsules_;
 };
 
@@ -218,8 +197,10 @@ std::vector<SeenRadius> seen_radii(const Tube& tube, const std::vector<Fragment>
                                    const std::vector<std::size_t>& members,
                                    const std::vector<Eigen::Vector3f>& points, const Vector3d& sensor) {
   constexpr std::size_t for_each_piece = 100;
-  const Sections empty(tube);
-  if (empty.number_of_pieces() == 0) return {};
+  const std::vector<Capsule> pieces = capsules(tube);
+  if (pieces.empty()) return {};
+  NearestAxis nearest(pieces);
+  const Sections empty(pieces);
   const std::size_t stride =
       number_of_points(fragments, members) / (for_each_piece * empty.number_of_pieces()) + 1;
   std::vector<PieceRadius> all;
@@ -228,7 +209,10 @@ std::vector<SeenRadius> seen_radii(const Tube& tube, const std::vector<Fragment>
   for (const std::size_t member : members) {
     const std::vector<std::size_t>& own = fragments[member].points;
     Sections sections = empty;
-    for (std::size_t i = 0; i < own.size(); i += stride) sections.add(points[own[i]].cast<double>(), sensor);
+    for (std::size_t i = 0; i < own.size(); i += stride) {
+      const Vector3d point = points[own[i]].cast<double>();
+      sections.add(point, nearest.foot_of(point), sensor);
+    }
     std::vector<PieceRadius> radii = radii_of(sections, tube.radius);
     all.insert(all.end(), radii.begin(), radii.end());
     if (members.size() > 1 && !radii.empty()) seen.push_back(middle_of(std::move(radii)));

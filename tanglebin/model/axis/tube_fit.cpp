@@ -7,6 +7,7 @@
 
 #include "tanglebin/base/constants.hpp"
 #include "tanglebin/geometry/capsule.hpp"
+#include "tanglebin/geometry/nearest_axis.hpp"
 #include "tanglebin/model/axis/links/assemble.hpp"
 #include "tanglebin/model/axis/links/line_tree.hpp"
 
@@ -69,26 +70,12 @@ LineTree simplified(const LineTree& line, double tolerance) {
   return result;
 }
 
-/// The point of the centre line nearest to a point, with its edge.
-struct Foot {
-  std::size_t edge;
-  double t;
-  Vector3d way;  // m, from the axis to the point
-};
-
-Foot foot_of(const LineTree& line, const Vector3d& point) {
-  Foot foot{no_index, 0, {}};
-  double nearest = infinity;
-  for (std::size_t edge = 0; edge < line.edges.size(); ++edge) {
-    const Vector3d& a = line.nodes[line.edges[edge][0]];
-    const Vector3d& b = line.nodes[line.edges[edge][1]];
-    const double t = nearest_on_axis({a, b, 0}, point);
-    const Vector3d way = point - (a + t * (b - a));
-    if (way.squaredNorm() >= nearest) continue;
-    nearest = way.squaredNorm();
-    foot = {edge, t, way};
-  }
-  return foot;
+// One for each edge.
+std::vector<Capsule> capsules_of(const LineTree& line, double radius) {
+  std::vector<Capsule> capsules;
+  capsules.reserve(line.edges.size());
+  for (const auto& [from, to] : line.edges) capsules.push_back({line.nodes[from], line.nodes[to], radius});
+  return capsules;
 }
 
 /// What the points are fitted with.
@@ -101,7 +88,7 @@ struct Shape {
 // Around an end that is rounded off, the surface is that of a ball. A face says nothing of the axis.
 bool is_on_face(const LineTree& line, const std::vector<Neighbours>& neighbours, const Foot& foot) {
   if (foot.t > 0 && foot.t < 1) return false;
-  return neighbours[line.edges[foot.edge][foot.t > 0 ? 1 : 0]].size() == 1;
+  return neighbours[line.edges[foot.capsule][foot.t > 0 ? 1 : 0]].size() == 1;
 }
 
 // One Gauss-Newton step on the distances of the points to the surface. Damped, so that parts without points
@@ -111,15 +98,16 @@ void improve(LineTree& line, const std::vector<Vector3d>& points, const Shape& s
   const auto size = static_cast<Eigen::Index>(3 * line.nodes.size());
   Eigen::MatrixXd normal_matrix = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd right_side = Eigen::VectorXd::Zero(size);
+  NearestAxis nearest(capsules_of(line, shape.radius));
   for (const Vector3d& point : points) {
-    const Foot foot = foot_of(line, point);
+    const Foot foot = nearest.foot_of(point);
     const double distance = foot.way.norm();
     const double residual = distance - shape.radius;
     if (std::abs(residual) > shape.residual_max) continue;
     if (shape.flat_ends && is_on_face(line, neighbours, foot)) continue;
     const Vector3d direction = foot.way / distance;
-    const auto a = static_cast<Eigen::Index>(3 * line.edges[foot.edge][0]);
-    const auto b = static_cast<Eigen::Index>(3 * line.edges[foot.edge][1]);
+    const auto a = static_cast<Eigen::Index>(3 * line.edges[foot.capsule][0]);
+    const auto b = static_cast<Eigen::Index>(3 * line.edges[foot.capsule][1]);
     const Eigen::Matrix3d product = direction * direction.transpose();
     const double s = 1 - foot.t;
     normal_matrix.block<3, 3>(a, a) += s * s * product;

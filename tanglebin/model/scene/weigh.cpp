@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tanglebin/base/median.hpp"
+#include "tanglebin/geometry/nearest_axis.hpp"
 #include "tanglebin/model/scene/confidence.hpp"
 
 namespace tanglebin {
@@ -18,18 +19,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Where a point is on a tube.
-struct Foot {
-  std::size_t edge;
-  double t;      ///< from 0 to 1 along the edge
-  Vector3d way;  ///< m, from the centre line to the point
-};
-
 /// A tube's centre line, in parts about as long as its radius.
 class CentreLine {
 public:
   explicit CentreLine(const Tube& tube)
-      : tube_(tube), parts_(tube.edges.size()), degrees_(tube.nodes.size()) {
+      : tube_(tube), nearest_(capsules(tube)), parts_(tube.edges.size()), degrees_(tube.nodes.size()) {
     for (std::size_t edge = 0; edge < tube.edges.size(); ++edge) {
       const double parts = std::max(1.0, std::round(length_of(edge) / tube.radius));
       parts_[edge].resize(static_cast<std::size_t>(parts));
@@ -40,34 +34,21 @@ public:
 
   double length_of(std::size_t edge) const { return way_of(edge).norm(); }
 
-  Foot foot_of(const Vector3d& point) const {
-    Foot foot{};
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t edge = 0; edge < tube_.edges.size(); ++edge) {
-      const Vector3d& from = tube_.nodes[tube_.edges[edge].from].position;
-      const Vector3d& to = tube_.nodes[tube_.edges[edge].to].position;
-      const double t = nearest_on_axis({from, to, 0}, point);
-      const Vector3d way = point - (from + t * (to - from));
-      if (way.squaredNorm() >= nearest) continue;
-      nearest = way.squaredNorm();
-      foot = {edge, t, way};
-    }
-    return foot;
-  }
+  Foot foot_of(const Vector3d& point) { return nearest_.foot_of(point); }
 
   // Whether a point is on the cap of an end, or on its face, which may be a little inside of the modelled
   // one.
   bool is_on_end(const Foot& foot) const {
     constexpr double face = 0.3;  // radii
-    const auto& [from, to, order] = tube_.edges[foot.edge];
-    const double margin = tube_.flat_ends ? face * tube_.radius / length_of(foot.edge) : 0;
+    const auto& [from, to, order] = tube_.edges[foot.capsule];
+    const double margin = tube_.flat_ends ? face * tube_.radius / length_of(foot.capsule) : 0;
     return (foot.t <= margin && degrees_[from] == 1) || (foot.t >= 1 - margin && degrees_[to] == 1);
   }
 
-  Vector3d direction_at(const Foot& foot) const { return way_of(foot.edge).normalized(); }
+  Vector3d direction_at(const Foot& foot) const { return way_of(foot.capsule).normalized(); }
 
   void see(const Foot& foot) {
-    auto& parts = parts_[foot.edge];
+    auto& parts = parts_[foot.capsule];
     const auto part = static_cast<std::size_t>(foot.t * static_cast<double>(parts.size()));
     parts[std::min(part, parts.size() - 1)] = 1;
   }
@@ -88,6 +69,7 @@ private:
   }
 
   const Tube& tube_;
+  NearestAxis nearest_;
   std::vector<std::vector<std::uint8_t>> parts_;  // of each edge: 1 if it was seen
   std::vector<int> degrees_;                      // of each node: how many edges it has
 };

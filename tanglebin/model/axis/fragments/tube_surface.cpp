@@ -4,40 +4,16 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
 #include "tanglebin/geometry/capsule.hpp"
+#include "tanglebin/geometry/nearest_axis.hpp"
 
 namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
-
-/// The cylinder of a tube that a point is nearest to, without its ends.
-struct Nearest {
-  Vector3d along;  // unit
-  Vector3d way;    // m, from the axis to the point
-};
-
-// The cylinder's direction is that in which it does not turn back against `forward`.
-std::optional<Nearest> nearest_cylinder(const std::vector<Capsule>& capsules, const Vector3d& forward,
-                                        const Vector3d& point) {
-  std::optional<Nearest> nearest;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Capsule& capsule : capsules) {
-    const double t = nearest_on_axis(capsule, point);
-    const Vector3d way = point - (capsule.a + t * (capsule.b - capsule.a));
-    if (way.norm() >= least) continue;
-    least = way.norm();
-    nearest.reset();
-    if (!(t > 0 && t < 1)) continue;
-    const Vector3d along = (capsule.b - capsule.a).normalized();
-    nearest = Nearest{along.dot(forward) < 0 ? Vector3d(-along) : along, way};
-  }
-  return nearest;
-}
 
 /// Sums of two angles, rad.
 struct Angles {
@@ -67,22 +43,27 @@ struct Measured {
 };
 
 Measured measure(const Fragment& fragment, std::size_t stride, const std::vector<Capsule>& pieces,
-                 const std::vector<Eigen::Vector3f>& points, const AxisVotes& votes, const Vector3d& sensor) {
+                 NearestAxis& nearest, const std::vector<Eigen::Vector3f>& points, const AxisVotes& votes,
+                 const Vector3d& sensor) {
   constexpr double off_max = 0.3;  // radii; what is farther from the side may be on a face
   const double radius = pieces.front().radius;
   const Capsule& longest = *std::ranges::max_element(
       pieces, {}, [](const Capsule& piece) { return (piece.b - piece.a).squaredNorm(); });
+  const Vector3d forward = longest.b - longest.a;
   Measured measured;
   for (std::size_t i = 0; i < fragment.points.size(); i += stride) {
     const Vector3d point = points[fragment.points[i]].cast<double>();
-    const std::optional<Nearest> nearest = nearest_cylinder(pieces, longest.b - longest.a, point);
-    if (!nearest || std::abs(nearest->way.norm() / radius - 1) > off_max) continue;
-    const Vector3d side = nearest->along.cross(sensor - point).normalized();
-    const Vector3d front = side.cross(nearest->along);
+    const Foot foot = nearest.foot_of(point);
+    if (!(foot.t > 0 && foot.t < 1) || std::abs(foot.way.norm() / radius - 1) > off_max) continue;
+    const Capsule& piece = pieces[foot.capsule];
+    const Vector3d direction = (piece.b - piece.a).normalized();
+    const Vector3d along = direction.dot(forward) < 0 ? Vector3d(-direction) : direction;
+    const Vector3d side = along.cross(sensor - point).normalized();
+    const Vector3d front = side.cross(along);
     const Vector3d normal = votes.normals[fragment.points[i]].cast<double>();
-    const double angle = std::atan2(nearest->way.dot(side), nearest->way.dot(front));
+    const double angle = std::atan2(foot.way.dot(side), foot.way.dot(front));
     measured.angles.add(angle, std::atan2(normal.dot(side), normal.dot(front)));
-    measured.places.push_back({angle, nearest->way.norm(), normal.dot(front)});
+    measured.places.push_back({angle, foot.way.norm(), normal.dot(front)});
   }
   return measured;
 }
@@ -160,11 +141,12 @@ TubeSurface surface_of(const Tube& tube, const std::vector<Fragment>& fragments,
   const std::size_t stride = number_of_points(fragments, members) / looked_at + 1;
   const std::vector<Capsule> pieces = capsules(tube);
   if (pieces.empty()) return {};
+  NearestAxis nearest(pieces);
   std::vector<Angles> angles;
   std::vector<Place> places;
   for (const std::size_t member : members) {
     const Measured measured =
-        measure(fragments[member], stride, pieces, points, votes, camera.pose.translation());
+        measure(fragments[member], stride, pieces, nearest, points, votes, camera.pose.translation());
     angles.push_back(measured.angles);
     places.insert(places.end(), measured.places.begin(), measured.places.end());
   }
