@@ -38,8 +38,9 @@ void RangeImage::keep_measured_rows() {
   depths_ = std::vector<float>(depths_.begin() + first_row_ * width, depths_.begin() + end_row_ * width);
 }
 
-// Compared as doubles: the projection of a point beside a near camera may be a number that no integer holds.
-double RangeImage::nearest_in(const Eigen::Vector2d& middle, double reach, double near) const {
+RangeImage::Seen RangeImage::seen_around(const Eigen::Vector2d& middle, double reach, double near) const {
+  // Compared as doubles: the projection of a point beside a near camera may be a number that no integer
+  // holds.
   const auto between = [](double value, std::ptrdiff_t first, std::ptrdiff_t end) {
     return static_cast<std::ptrdiff_t>(
         std::clamp(value, static_cast<double>(first), static_cast<double>(end)));
@@ -48,12 +49,18 @@ double RangeImage::nearest_in(const Eigen::Vector2d& middle, double reach, doubl
   const auto right = between(std::round(middle.x()) + reach + 1, 0, camera_.width);  // one past the last
   const auto top = between(std::round(middle.y()) - reach, first_row_, end_row_);
   const auto bottom = between(std::round(middle.y()) + reach + 1, first_row_, end_row_);
-  float nearest = std::numeric_limits<float>::infinity();
-  for (auto v = top; v < bottom && nearest >= near; ++v) {
-    const auto row = depths_.begin() + (v - first_row_) * camera_.width;
-    for (auto depth = row + left; depth < row + right; ++depth) nearest = std::min(nearest, *depth);
+  const auto limit = static_cast<float>(near);
+  int nearer = 0;
+  int measured = 0;
+  for (auto v = top; v < bottom && nearer == 0; ++v) {
+    const float* row = depths_.data() + (v - first_row_) * camera_.width;
+    for (auto u = left; u < right; ++u) {
+      nearer += row[u] < limit ? 1 : 0;
+      measured += row[u] < std::numeric_limits<float>::infinity() ? 1 : 0;
+    }
   }
-  return nearest;
+  if (nearer > 0) return Seen::nearer;
+  return measured > 0 ? Seen::farther : Seen::nothing;
 }
 
 bool RangeImage::hides(const Eigen::Vector3d& first, const Eigen::Vector3d& second, int radius) const {
@@ -62,7 +69,7 @@ bool RangeImage::hides(const Eigen::Vector3d& first, const Eigen::Vector3d& seco
   if (!first_image || !second_image) return false;
   const Eigen::Vector2d middle = (*first_image + *second_image) / 2;
   const double depth = std::max(depth_of(camera_, first), depth_of(camera_, second));
-  return nearest_in(middle, radius, depth) < depth;
+  return seen_around(middle, radius, depth) == Seen::nearer;
 }
 
 bool RangeImage::is_solid(const Eigen::Vector3d& axis, double radius) const {
@@ -76,10 +83,8 @@ bool RangeImage::shows_empty(const Eigen::Vector3d& axis, double radius) const {
   const std::optional<Eigen::Vector2d> image = project(camera_, axis);
   if (!image) return false;
   const double depth = depth_of(camera_, axis);
-  const double front = depth - radius / 2;
-  const double nearest =
-      nearest_in(*image, std::max(1.0, std::floor(radius * camera_.fx / depth / 3)), front);
-  return std::isfinite(nearest) && nearest > front;
+  const double reach = std::max(1.0, std::floor(radius * camera_.fx / depth / 3));
+  return seen_around(*image, reach, depth - radius / 2) == Seen::farther;
 }
 
 bool RangeImage::covers(const Eigen::Vector3d& point, double radius) const {

@@ -38,9 +38,11 @@ public:
   void keep_measured_rows();
 
 private:
-  // The smallest depth within `reach` pixels of a place in the image, ∞ if there is none. m. Ends early where
-  // it is smaller than `near`.
-  double nearest_in(const Eigen::Vector2d& middle, double reach, double near) const;
+  enum class Seen { nothing, farther, nearer };
+
+  // What was seen within `reach` pixels of a place in the image: anything nearer than `near`, m, or only what
+  // is farther.
+  Seen seen_around(const Eigen::Vector2d& middle, double reach, double near) const;
 
   Camera camera_;
   std::vector<Eigen::AlignedBox3d> solid_;

@@ -85,18 +85,20 @@ double cost_of_bent(const Candidates& candidates, const CentrePath& chain) {
   const LinkSettings& settings = candidates.settings;
   const double radius = candidates.kind.radius;
   if (path_length(chain) < slack * radius) return 0;
-  const auto is_empty = [&](const Eigen::Vector3d& place) {
-    return candidates.seen.shows_empty(place, radius);
+  const auto of_empty = [&](int places) {
+    return std::clamp(settings.bent_empty * (places * TubeShapes::step - slack), 0.0, cost_max);
   };
   double least = 2 * cost_max;
   candidates.shapes.lay_on(chain, [&](const TubeShapes::Laid& laid) {
     const double of_looks =
         std::clamp(settings.bent_weight * (laid.strangeness - settings.strangeness_max), 0.0, cost_max);
     if (of_looks >= least) return true;
-    const CentrePath rest = candidates.shapes.rest_of(laid, near * radius);
-    const auto empty = static_cast<double>(std::ranges::count_if(rest, is_empty));
-    const double of_empty = settings.bent_empty * (empty * TubeShapes::step - slack);
-    least = std::min(least, of_looks + std::clamp(of_empty, 0.0, cost_max));
+    int empty = 0;
+    for (const Eigen::Vector3d& place : candidates.shapes.rest_of(laid, near * radius)) {
+      if (candidates.seen.shows_empty(place, radius)) ++empty;
+      if (of_looks + of_empty(empty) >= least) return true;
+    }
+    least = of_looks + of_empty(empty);
     return least > 0;
   });
   return least;

@@ -270,6 +270,7 @@ void TubeShapes::slide(const Sample& part, Match& match) const {
   const Distances& tube = tubes_[match.tube];
   Match slid = match;
   for (int round = 0; round < rounds; ++round) {
+    const Matches before = slid.places;
     const Isometry3d to_tube = pose_of(tube.places, slid.places, part.places).inverse(Eigen::Isometry);
     for (std::size_t i = 0; i < slid.places.size(); ++i) {
       const Vector3d place = to_tube * part.places[i];
@@ -279,6 +280,7 @@ void TubeShapes::slide(const Sample& part, Match& match) const {
           first, last + 1, {}, [&](const Vector3d& other) { return (other - place).squaredNorm(); });
       slid.places[i] = static_cast<int>(nearest - tube.places.begin());
     }
+    if (slid.places == before) break;
   }
   slid.squares = part.squares(tube, slid.places);
   if (slid.squares < match.squares) match = std::move(slid);
