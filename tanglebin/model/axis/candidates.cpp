@@ -68,43 +68,43 @@ void drop_unless(std::vector<std::vector<TubeCandidate>>& of_kinds, const auto& 
     std::erase_if(candidates, [&](const TubeCandidate& candidate) { return !is_tube(candidate); });
 }
 
-// Farther from the known radius than errors of the scanner explain.
-bool is_other_radius(const SeenRadius& seen, double known) {
+/// How the radii that the tubes of a scan show compare with their known ones.
+struct UsualRatio {
+  double middle;     ///< of what is seen, over what is known
+  double deviation;  ///< standard deviation of that, from tube to tube
+};
+
+// Of the tube that the point in the middle is on. 0 if no tube shows a radius.
+UsualRatio usual_ratio(const std::vector<std::vector<TubeCandidate>>& of_kinds) {
+  std::vector<std::pair<double, std::size_t>> ratios;
+  for (const std::vector<TubeCandidate>& candidates : of_kinds) {
+    for (const TubeCandidate& candidate : candidates) {
+      if (!candidate.seen.empty())
+        ratios.emplace_back(candidate.seen.front().radius / candidate.tube.radius, candidate.points);
+    }
+  }
+  const double middle = weighted_median(ratios);
+  for (auto& [ratio, points] : ratios) ratio = std::abs(ratio - middle);
+  return {middle, deviation_of_median * weighted_median(std::move(ratios))};
+}
+
+// Farther from what tubes of the known radius show than the errors of the scanner explain.
+bool is_other_radius(const SeenRadius& seen, double known, const UsualRatio& usual) {
   constexpr std::size_t pieces_min = 8;
   constexpr double tolerance = 0.2;
   constexpr double errors = 4;
+  const double error = std::hypot(seen.error, usual.deviation * known);
   return seen.pieces >= pieces_min &&
-         std::abs(seen.radius - known) > std::max(tolerance * known, errors * seen.error);
-}
-
-bool is_foreign(const SeenRadius& seen, const std::vector<TubeKind>& kinds) {
-  return std::ranges::all_of(kinds, [&](const TubeKind& kind) { return is_other_radius(seen, kind.radius); });
-}
-
-bool shows_known_radius(const TubeCandidate& candidate) {
-  constexpr double tolerance = 0.1;
-  return !candidate.seen.empty() &&
-         std::abs(candidate.seen.front().radius / candidate.tube.radius - 1) < tolerance;
-}
-
-// Whether at least a quarter of the points are on tubes that show it.
-bool are_radii_right(const std::vector<std::vector<TubeCandidate>>& of_kinds) {
-  constexpr std::size_t share = 4;
-  std::size_t all = 0;
-  std::size_t right = 0;
-  for (const std::vector<TubeCandidate>& candidates : of_kinds) {
-    for (const TubeCandidate& candidate : candidates) {
-      all += candidate.points;
-      right += shows_known_radius(candidate) ? candidate.points : 0;
-    }
-  }
-  return share * right >= all;
+         std::abs(seen.radius - usual.middle * known) > std::max(tolerance * known, errors * error);
 }
 
 // m, if the candidate shows one.
-std::optional<double> foreign_radius(const TubeCandidate& candidate, const std::vector<TubeKind>& kinds) {
-  const auto foreign =
-      std::ranges::find_if(candidate.seen, [&](const SeenRadius& seen) { return is_foreign(seen, kinds); });
+std::optional<double> foreign_radius(const TubeCandidate& candidate, const std::vector<TubeKind>& kinds,
+                                     const UsualRatio& usual) {
+  const auto foreign = std::ranges::find_if(candidate.seen, [&](const SeenRadius& seen) {
+    return std::ranges::all_of(
+        kinds, [&](const TubeKind& kind) { return is_other_radius(seen, kind.radius, usual); });
+  });
   if (foreign == candidate.seen.end()) return std::nullopt;
   return foreign->radius;
 }
@@ -141,11 +141,13 @@ void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, con
 std::vector<std::vector<ForeignTube>> take_foreign(std::vector<std::vector<TubeCandidate>>& of_kinds,
                                                    const std::vector<TubeKind>& kinds) {
   std::vector<std::vector<ForeignTube>> foreign(of_kinds.size());
-  if (!are_radii_right(of_kinds)) return foreign;
+  constexpr double tolerance = 0.1;
+  const UsualRatio usual = usual_ratio(of_kinds);
+  if (std::abs(usual.middle - 1) > tolerance) return foreign;
   for (std::size_t kind = 0; kind < of_kinds.size(); ++kind) {
     std::vector<TubeCandidate> known;
     for (TubeCandidate& candidate : of_kinds[kind]) {
-      if (const std::optional<double> radius = foreign_radius(candidate, kinds))
+      if (const std::optional<double> radius = foreign_radius(candidate, kinds, usual))
         foreign[kind].push_back({std::move(candidate), *radius});
       else
         known.push_back(std::move(candidate));

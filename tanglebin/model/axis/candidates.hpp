@@ -42,8 +42,8 @@ std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vec
 void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, const Support& support);
 
 /// Takes the tubes out that clearly show a radius, all along or in one of their fragments, that none of the
-/// kinds has. If hardly any tube shows a known radius, what is known is wrong, and none is taken out. Returns
-/// them by kind.
+/// kinds has: clearly compared with what the other tubes show. If most of these do not show what is known,
+/// that is wrong or the scan is, and none is taken out. Returns them by kind.
 std::vector<std::vector<ForeignTube>> take_foreign(std::vector<std::vector<TubeCandidate>>& of_kinds,
                                                    const std::vector<TubeKind>& kinds);
 

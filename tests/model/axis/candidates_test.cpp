@@ -1,5 +1,6 @@
 #include "tanglebin/model/axis/candidates.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -8,6 +9,10 @@
 
 namespace tanglebin {
 namespace {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+using testing::IsEmpty;
 
 // Looks like a tube, and its points scatter by this many radii about the modelled line.
 TubeCandidate that_scatters_by(double scatter) {
@@ -38,6 +43,37 @@ TEST(Candidates, AreNoTubeIfTheyScatterMuchMoreThanTheOthers) {
 TEST(Candidates, MayScatterALittleHoweverSmoothTheOthersAre) {
   EXPECT_EQ(scatters_left({0, 0, 0, 0.016}).size(), 4U);
   EXPECT_EQ(scatters_left({0, 0, 0, 0.05}).size(), 3U);
+}
+
+// The radii, in known ones, of the tubes that are taken out as foreign from tubes that show these.
+std::vector<double> foreign_of(const std::vector<double>& seen) {
+  std::vector<std::vector<TubeCandidate>> of_kinds(1);
+  for (const double radius : seen) {
+    of_kinds[0].push_back(that_scatters_by(0));
+    of_kinds[0].back().seen = {{.radius = radius * test::radius, .error = 0.02 * test::radius, .pieces = 20}};
+  }
+  const auto foreign = take_foreign(of_kinds, {{.radius = test::radius}});
+  std::vector<double> radii;
+  for (const ForeignTube& tube : foreign[0]) radii.push_back(tube.radius / test::radius);
+  EXPECT_EQ(of_kinds[0].size() + radii.size(), seen.size());
+  return radii;
+}
+
+TEST(Candidates, AreForeignIfTheyShowAnotherRadius) {
+  EXPECT_THAT(foreign_of({1, 0.98, 1.02, 0.7, 1.01}), ElementsAre(DoubleNear(0.7, 1e-9)));
+  EXPECT_THAT(foreign_of({1, 0.98, 1.02, 1.4, 1.01, 0.5}),
+              ElementsAre(DoubleNear(1.4, 1e-9), DoubleNear(0.5, 1e-9)));
+  EXPECT_THAT(foreign_of({1, 0.98, 1.02, 0.85, 1.01}), IsEmpty());
+}
+
+// As on real bars, whose heights were rounded and smoothed: each shows another radius.
+TEST(Candidates, AreNotForeignWhereNoRadiusIsSeenWell) {
+  EXPECT_THAT(foreign_of({1, 0.9, 1.06, 0.72, 0.84}), IsEmpty());
+}
+
+// All are seen too thin, so the radius or the scale is wrong.
+TEST(Candidates, AreNotForeignWhereMostDoNotShowTheKnownRadius) {
+  EXPECT_THAT(foreign_of({0.85, 0.86, 0.84, 0.76, 0.6}), IsEmpty());
 }
 
 }  // namespace
