@@ -274,6 +274,7 @@ template <std::size_t points>
   }
 }
 
+// With AVX2, a register holds eight numbers, else four.
 #ifdef __x86_64__
 [[gnu::target("avx2")]] void find_with_avx2(const PixelGrid& grid, const PointItems& items, float reach,
                                             Neighbourhoods& found) {

@@ -93,10 +93,10 @@ public:
       : grid_(grid), pixel_angle_(pixel_angle), radius_(radius), settings_(settings) {}
 
   void look_along_rows() {
-    look_along(1, [&](std::size_t pixel) { return pixel % grid_.width; });
+    look_along({1, grid_.width}, [&](std::size_t pixel) { return pixel % grid_.width; });
   }
   void look_along_columns() {
-    look_along(grid_.width, [&](std::size_t pixel) { return pixel / grid_.width; });
+    look_along({grid_.width, grid_.height}, [&](std::size_t pixel) { return pixel / grid_.width; });
   }
 
   Ramps found(const std::vector<ImagePoint>& points) const {
@@ -115,6 +115,12 @@ public:
   }
 
 private:
+  /// All rows or all columns.
+  struct Lines {
+    std::size_t stride;  // from a pixel to the next
+    std::size_t count;   // of a line's pixels
+  };
+
   float depth(const Run& run, std::size_t place) const { return grid_.depths[run.line[place]]; }
 
   double drop_of(const Run& run) const { return depth(run, run.far_end()) - depth(run, run.near_end()); }
@@ -126,8 +132,8 @@ private:
     std::vector<std::size_t> steep;  // pixels, ascending
   };
 
-  // `stride` leads from a pixel to the next.
-  Steps steps_along(std::size_t stride) const {
+  Steps steps_along(const Lines& lines, const auto& place_on_line) const {
+    const std::size_t stride = lines.stride;
     const std::vector<float>& depths = grid_.depths;
     Steps steps{std::vector<std::int8_t>(depths.size()), {}};
     // Most steps are not steep by far, which single precision shows fast.
@@ -138,13 +144,10 @@ private:
       const float to = depths[i + stride];
       steps.of_pixels[i] = std::abs(to - from) > slope * std::min(from, to) ? 1 : 0;
     }
-    if (stride == 1) {
-      for (std::size_t end = grid_.width; end <= depths.size(); end += grid_.width)
-        steps.of_pixels[end - 1] = 0;
-    }
     for (std::size_t i = 0; i < depths.size(); ++i) {
       if (steps.of_pixels[i] == 0) continue;
-      steps.of_pixels[i] = steep_step(i, i + stride);
+      const bool is_last = place_on_line(i) + 1 == lines.count;
+      steps.of_pixels[i] = is_last ? std::int8_t{0} : steep_step(i, i + stride);
       if (steps.of_pixels[i] != 0) steps.steep.push_back(i);
     }
     return steps;
@@ -158,15 +161,16 @@ private:
   }
 
   // A run begins where the step before is another one.
-  void look_along(std::size_t stride, const auto& place_on_line) {
-    const auto& [steps, steep] = steps_along(stride);
+  void look_along(const Lines& lines, const auto& place_on_line) {
+    const std::size_t stride = lines.stride;
+    const auto& [steps, steep] = steps_along(lines, place_on_line);
     for (const std::size_t pixel : steep) {
       const std::int8_t step = steps[pixel];
       if (pixel >= stride && steps[pixel - stride] == step) continue;
       const std::size_t begin = place_on_line(pixel);
       std::size_t end = begin;
       for (std::size_t i = pixel; steps[i] == step; i += stride) ++end;
-      add({{pixel - begin * stride, stride, stride == 1 ? grid_.width : grid_.height}, begin, end, step > 0});
+      add({{pixel - begin * stride, stride, lines.count}, begin, end, step > 0});
     }
   }
 

@@ -67,6 +67,22 @@ TEST(Ramps, AreBetweenTwoSurfaces) {
   EXPECT_DOUBLE_EQ(ramps_of(up).blended, 1);
 }
 
+// As a line scanner sees it, along its line.
+TEST(Ramps, AreInAnImageOfOneColumnToo) {
+  Camera line = camera();
+  line.width = 1;
+  line.cx = 0;
+  std::vector<Vector3f> points;
+  for (int v = 0; v < size; ++v) {
+    const double depth = v < 30 ? near : v == 30 ? 1.03 : v == 31 ? 1.07 : far;
+    points.push_back((Eigen::Vector3d(0, (v - line.cy) / focal_length, 1) * depth).cast<float>());
+  }
+  const Ramps ramps = find_ramps(points, line, radius, radius, {.beside = 0});
+  EXPECT_EQ(std::ranges::count(ramps.points, true), 2);
+  EXPECT_TRUE(ramps.points[30] && ramps.points[31]);
+  EXPECT_DOUBLE_EQ(ramps.blended, 1);
+}
+
 TEST(Ramps, BendWhatIsBesideThem) {
   const auto depth = [](int u) { return u < 30 ? near : u == 30 ? 1.03 : u == 31 ? 1.07 : far; };
   EXPECT_THAT(columns(ramps_of(depth)), testing::ElementsAre(29, 30, 31, 32));
