@@ -109,15 +109,21 @@ void exchange(const LinkCandidates& candidates, Selection& selection, const std:
   std::size_t tries_left = looks_max / std::max<std::size_t>(candidates.fragments.size(), 1);
   std::size_t in_vain = 0;  // links tried since the last exchange
   Bound bound(candidates);
+  selection.sum_weight_anew();
   for (std::size_t i = 0; in_vain < all.size() && tries_left > 0; i = (i + 1) % all.size(), --tries_left) {
     ++in_vain;
     const Selection::Mark before = selection.mark();
-    if (!exchange_for(candidates, selection, i, bound) || selection.weight() <= before.weight + rounding) {
-      selection.undo_to(before);
-      continue;
+    const auto is_heavier = [&] { return selection.weight() > before.weight + rounding; };
+    if (exchange_for(candidates, selection, i, bound) && is_heavier()) {
+      selection.take_possible(all);
+      // Without that, two selections that differ by rounding could follow each other for ever.
+      selection.sum_weight_anew();
+      if (is_heavier()) {
+        in_vain = 0;
+        continue;
+      }
     }
-    selection.take_possible(all);
-    in_vain = 0;
+    selection.undo_to(before);
   }
 }
 

@@ -24,10 +24,9 @@ std::vector<std::size_t> without_repeats(std::vector<std::size_t> links) {
 Selection::Selection(const LinkCandidates& candidates, Costs& costs)
     : candidates_(&candidates), costs_(&costs), links_at_(candidates.vertices, no_index) {
   places_.reserve(candidates.fragments.size());
-  for (std::size_t i = 0; i < candidates.fragments.size(); ++i) {
+  for (std::size_t i = 0; i < candidates.fragments.size(); ++i)
     places_.push_back({i, i, candidates.alone[i]});
-    weight_ -= candidates.alone[i].cost;
-  }
+  sum_weight_anew();
 }
 
 bool Selection::take(std::size_t link) {
@@ -73,6 +72,14 @@ std::vector<std::size_t> Selection::taken() const {
   std::vector<std::size_t> links;
   std::ranges::copy_if(links_at_, std::back_inserter(links), [](std::size_t i) { return i != no_index; });
   return without_repeats(std::move(links));
+}
+
+void Selection::sum_weight_anew() {
+  weight_ = 0;
+  for (const std::size_t i : taken()) weight_ += candidates_->pairs[i].weight;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (represents(i)) weight_ -= places_[i].part.cost;
+  }
 }
 
 void Selection::undo_to(const Mark& mark) {

@@ -51,8 +51,10 @@ public:
   /// All links, heaviest first.
   std::vector<std::size_t> taken() const;
 
-  /// The sum of the links' weights, less the costs of the tubes: log odds.
+  /// The sum of the links' weights, less the costs of the tubes: log odds. What is taken and released changes
+  /// it, so that rounding adds up, until it is summed anew.
   double weight() const { return weight_; }
+  void sum_weight_anew();
 
   /// A state to go back to.
   struct Mark {
