@@ -25,17 +25,17 @@ Foot NearestAxis::foot_of(const Vector3d& point) {
   constexpr double rounding = 1 + 1e-9;
   Foot nearest = foot_on(last_);
   double least = nearest.way.squaredNorm();
-  double distance = rounding * std::sqrt(least);
+  double distance = std::sqrt(least);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     // All of an axis is within half its length of its middle.
-    const double reach = axes_[i].half_length + distance;
+    const double reach = rounding * (axes_[i].half_length + distance);
     if (i == last_ || (point - axes_[i].middle).squaredNorm() > reach * reach) continue;
     const Foot foot = foot_on(i);
     const double square = foot.way.squaredNorm();
     if (square > least || (square == least && i > nearest.capsule)) continue;
     nearest = foot;
     least = square;
-    distance = rounding * std::sqrt(least);
+    distance = std::sqrt(least);
   }
   last_ = nearest.capsule;
   return nearest;
