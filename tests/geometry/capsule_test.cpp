@@ -7,16 +7,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "tests/geometry/any_point.hpp"
+
 namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
-
-// Points of a coarse grid, so that segments are often points, parallel, collinear or touch.
-Vector3d any_point() {
-  const auto coordinate = rc::gen::inRange(-3, 4);
-  return Vector3d(*coordinate, *coordinate, *coordinate) / 10;
-}
+using test::any_point;
 
 // Points of a fine grid: segments in general position.
 Vector3d any_fine_point() {

@@ -6,22 +6,19 @@
 
 #include <algorithm>
 
+#include "tests/geometry/any_point.hpp"
+
 namespace tanglebin {
 namespace {
 
 using Eigen::Vector3d;
 
-// Of a coarse grid, so that axes are often points or touch, and points are often as near to one as to
-// another.
-Vector3d grid_point() {
-  const auto coordinate = rc::gen::inRange(-3, 4);
-  return Vector3d(*coordinate, *coordinate, *coordinate) / 10;
-}
+using test::any_point;
 
 std::vector<Capsule> any_capsules() {
   std::vector<Capsule> capsules;
   const int count = *rc::gen::inRange(1, 10);
-  for (int i = 0; i < count; ++i) capsules.push_back({grid_point(), grid_point(), 0.01});
+  for (int i = 0; i < count; ++i) capsules.push_back({any_point(), any_point(), 0.01});
   return capsules;
 }
 
@@ -29,7 +26,7 @@ RC_GTEST_PROP(NearestAxis, IsTheFirstOfTheNearestWhateverWasAskedBefore, ()) {
   const std::vector<Capsule> capsules = any_capsules();
   NearestAxis nearest(capsules);
   for (int i = 0; i < 20; ++i) {
-    const Vector3d point = grid_point();
+    const Vector3d point = any_point();
     const Foot foot = nearest.foot_of(point);
     const auto first = std::ranges::min_element(
         capsules, {}, [&](const Capsule& capsule) { return axis_distance(capsule, point); });
