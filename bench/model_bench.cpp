@@ -1,10 +1,12 @@
 // The cost of each step of modelling, on one core, for each method: set A in the paper's bin by number of
 // tubes and downsampling ratio (percent), and many tubes in the published bin. paper_s is from the paper's
 // Table 2 (i7-8750H), of_paper is our total time as a fraction of it, and times_faster is the time of the
-// paper's method for the same clouds in the same run, divided by ours.
+// paper's method for the same clouds in the same run, divided by ours. PointsAtRandom is the worst that a
+// cloud can be: points anywhere in the bin, of which thousands of pieces of tubes are made.
 
 #include <benchmark/benchmark.h>
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <tuple>
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "bench/paper_sets.hpp"
+#include "tanglebin/base/random.hpp"
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/report/published_figures.hpp"
 #include "tanglebin/scan/scan_output.hpp"
@@ -89,6 +92,33 @@ void ModelTubes(benchmark::State& state, Method method, const std::string& bin) 
   }
 }
 
+PointCloud points_at_random(const Bin& bin, std::int64_t size) {
+  Rng rng(1);
+  const auto between = [&](double low, double high) {
+    return static_cast<float>(uniform_real(rng, low, high));
+  };
+  PointCloud cloud;
+  for (std::int64_t i = 0; i < size; ++i) {
+    Eigen::Vector3f point;
+    point.x() = between(-bin.length / 2, bin.length / 2);
+    point.y() = between(-bin.width / 2, bin.width / 2);
+    point.z() = between(0, bin.height);
+    cloud.points.push_back(point);
+  }
+  return cloud;
+}
+
+void PointsAtRandom(benchmark::State& state) {
+  const KnownScene known{.support = {.bin = bin_preset("paper")}, .camera = camera_preset("paper")};
+  const PointCloud cloud = points_at_random(known.support.bin, state.range(0));
+  for ([[maybe_unused]] const auto iteration : state) {
+    const Model model = model_tubes(cloud, known, {});
+    state.counters["tubes"] = static_cast<double>(model.tubes.size());
+    for (const Step& step : model.steps) state.counters[step.name + "_ms"] = 1e3 * step.seconds;
+  }
+}
+
+BENCHMARK(PointsAtRandom)->Arg(50'000)->Arg(200'000)->Iterations(1)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(ModelTubes, axis, Method::axis, "paper")
     ->ArgsProduct({{1, 5, 10, 15, 20}, {10, 50, 100}})
     ->UseManualTime()

@@ -105,7 +105,7 @@ bool exchange_for(const LinkCandidates& candidates, Selection& selection, std::s
 // tries where there are many links: between thousands of pieces of noise.
 void exchange(const LinkCandidates& candidates, Selection& selection, const std::vector<std::size_t>& all) {
   constexpr double rounding = 1e-9;
-  constexpr std::size_t looks_max = 100'000'000;
+  constexpr std::size_t looks_max = 20'000'000;
   std::size_t tries_left = looks_max / std::max<std::size_t>(candidates.fragments.size(), 1);
   std::size_t in_vain = 0;  // links tried since the last exchange
   Bound bound(candidates);

@@ -163,6 +163,46 @@ std::optional<double> mean_on(const Way& way, double most, const Measure& measur
   return sum / places;
 }
 
+/// Keeps the heaviest of the links that it is given. So that thousands of pieces of noise, most of which
+/// could be neighbours, take neither time nor memory without limit. A heap of sixty tubes has some 14,000
+/// links.
+class HeaviestLinks {
+public:
+  void add(Link link) {
+    links_.push_back({std::move(link), added_++});
+    if (links_.size() == 2 * most) drop_lightest();
+  }
+
+  /// In the order in which they were given.
+  std::vector<Link> take() {
+    if (links_.size() > most) drop_lightest();
+    std::ranges::sort(links_, {}, &Numbered::number);
+    std::vector<Link> links;
+    links.reserve(links_.size());
+    for (Numbered& link : links_) links.push_back(std::move(link.link));
+    return links;
+  }
+
+private:
+  static constexpr std::size_t most = 40'000;
+
+  struct Numbered {
+    Link link;
+    std::size_t number;  // of those that were given before
+  };
+
+  void drop_lightest() {
+    const auto end = links_.begin() + most;
+    std::ranges::nth_element(links_, end, [](const Numbered& a, const Numbered& b) {
+      return std::pair(b.link.weight, a.number) < std::pair(a.link.weight, b.number);
+    });
+    links_.erase(end, links_.end());
+  }
+
+  std::vector<Numbered> links_;
+  std::size_t added_ = 0;
+};
+
 /// Finds the links between two fragments.
 class LinkFinder {
 public:
@@ -187,13 +227,12 @@ public:
       for (std::size_t j = 0; j < g.ends.size(); ++j) {
         const double gap = (g.ends[j].position - f.ends[i].position).norm();
         if (!may_span(gap, f, g)) continue;
-        take_if_likely({kind_.branches() ? LinkKind::tree_ends : LinkKind::chain_ends,
-                        first,
-                        i,
-                        {second, g.ends[j].node, j, g.ends[j].position},
-                        gap,
-                        features_of(f.ends[i], g.ends[j], kind_.radius)},
-                       f.ends[i], g.ends[j]);
+        consider({kind_.branches() ? LinkKind::tree_ends : LinkKind::chain_ends,
+                  first,
+                  i,
+                  {second, g.ends[j].node, j, g.ends[j].position},
+                  gap,
+                  features_of(f.ends[i], g.ends[j], kind_.radius)});
       }
     }
   }
@@ -211,22 +250,39 @@ public:
       const JunctionPlace& cheapest = *std::ranges::min_element(places_[second], {}, cost);
       const Vector3d way_back = end.position - cheapest.target.position;
       if (!may_span(way_back.norm(), f, fragments_[second])) continue;
-      take_if_likely({LinkKind::junction, first, i, cheapest.target, way_back.norm(),
-                      features_of(end, cheapest, kind_.radius)},
-                     end, {cheapest.target.node, cheapest.target.position, way_back.normalized()});
+      consider({LinkKind::junction, first, i, cheapest.target, way_back.norm(),
+                features_of(end, cheapest, kind_.radius)});
     }
   }
 
-  std::vector<Link> found() { return heaviest_first(std::move(links_)); }
+  std::vector<Link> found() {
+    std::vector<Link> links;
+    for (const Link& link : considered_.take()) {
+      if (std::optional<Link> freest = by_freest_way(link)) links.push_back(*std::move(freest));
+    }
+    return heaviest_first(std::move(links));
+  }
 
 private:
   bool may_span(double gap, const Fragment& first, const Fragment& second) const {
     return first.length + gap + second.length <= length_max_;
   }
 
-  // Takes the link by the freer of its ways. What lies on a way takes the longest to find out.
-  void take_if_likely(const Link& link, const FragmentEnd& from, const FragmentEnd& to) {
-    if (link.features[alpha] > settings_.angle_max || weight_of(link, settings_) <= 0) return;
+  // What lies on the way of a link takes the longest to find out, so that comes last.
+  void consider(Link link) {
+    link.weight = weight_of(link, settings_);
+    if (link.features[alpha] <= settings_.angle_max && link.weight > 0) considered_.add(std::move(link));
+  }
+
+  FragmentEnd target_of(const Link& link, const FragmentEnd& from) const {
+    if (link.kind != LinkKind::junction) return fragments_[link.to.fragment].ends[*link.to.end];
+    return {link.to.node, link.to.position, (from.position - link.to.position).normalized()};
+  }
+
+  // The link by the freer of its ways; none if it is not likely by either.
+  std::optional<Link> by_freest_way(const Link& link) const {
+    const FragmentEnd& from = fragments_[link.fragment].ends[link.end];
+    const FragmentEnd to = target_of(link, from);
     const Vector3d gap = to.position - from.position;
     const auto link_through = [&](const auto& place) {
       return link_by(way_over(gap.norm(), kind_.radius, place), link, from, to);
@@ -236,7 +292,7 @@ private:
       const std::optional<Link> curved = link_through([&](double t) { return on_curve(from, to, t); });
       if (curved && (!freest || hindrances(*curved) < hindrances(*freest))) freest = curved;
     }
-    if (freest) links_.push_back(*freest);
+    return freest;
   }
 
   // The link with the features of a way; none if it is not likely by that way.
@@ -281,7 +337,7 @@ private:
   double length_max_;  // m
   Obstacles obstacles_;
   std::vector<std::vector<JunctionPlace>> places_;  // of each fragment
-  std::vector<Link> links_;
+  HeaviestLinks considered_;                        // without what lies on their ways
 };
 
 }  // namespace

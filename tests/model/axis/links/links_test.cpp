@@ -61,6 +61,37 @@ TEST(Links, AreWeighedAgainByOtherWeights) {
   EXPECT_THAT(weighed(links, near_only), testing::Not(IsEmpty()));
 }
 
+// Pieces like a cloud of noise gives, any two of which may be neighbours. By gaps alone, only the nearest
+// ones are looked at.
+TEST(Links, AreTheHeaviestWhereThereAreTooManyToLookAt) {
+  std::vector<Fragment> pieces;
+  for (int x = 0; x < 15; ++x) {
+    for (int y = 0; y < 15; ++y) {
+      const Eigen::Vector3d middle(0.03 * x, 0.037 * y, 0.05);
+      pieces.push_back(straight_fragment(middle, middle + Eigen::Vector3d(0.02, 0, 0)));
+    }
+  }
+  LinkSettings by_gap;
+  by_gap.angle_max = 7;  // any turns
+  by_gap.chain_prior = 1e6;
+  by_gap.weights.chain_ends = {0, 0, -1};
+  TubeKind endless;
+  endless.segments[0].length = 100;
+  const std::vector<Link> links = find_links(pieces, RangeImage({}, camera_preset("paper")), endless, by_gap);
+  std::vector<double> gaps;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (const FragmentEnd& from : pieces[i].ends) {
+        for (const FragmentEnd& to : pieces[j].ends) gaps.push_back((to.position - from.position).norm());
+      }
+    }
+  }
+  std::ranges::sort(gaps);
+  EXPECT_THAT(gaps, SizeIs(100'800));
+  ASSERT_THAT(links, SizeIs(40'000));
+  for (std::size_t i = 0; i < links.size(); ++i) ASSERT_NEAR(links[i].gap, gaps[i], 1e-9);
+}
+
 TEST(Links, AreNotWhereTheSensorSawThatThereIsNothing) {
   const std::vector<Fragment> fragments = {straight_fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
                                            straight_fragment({0.05, 0, 0.05}, {0.2, 0, 0.05})};
