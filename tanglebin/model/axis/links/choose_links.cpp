@@ -17,15 +17,19 @@
 namespace tanglebin {
 namespace {
 
-// The links of these fragments whose ends are free, heaviest first.
-std::vector<std::size_t> free_links_of(const std::vector<std::size_t>& fragments, const Selection& selection,
-                                       const LinkCandidates& candidates) {
+bool share_an_end(const WeightedPair& a, const WeightedPair& b) {
+  return a.first == b.first || a.first == b.second || a.second == b.first || a.second == b.second;
+}
+
+// The links of these fragments whose ends are free if this one is taken.
+std::vector<std::size_t> free_links_with(std::size_t link, const std::vector<std::size_t>& fragments,
+                                         const Selection& selection, const LinkCandidates& candidates) {
   std::vector<std::size_t> free;
   for (const std::size_t fragment : fragments) {
-    std::ranges::copy_if(candidates.links_of[fragment], std::back_inserter(free),
-                         [&](std::size_t link) { return selection.has_free_ends(link); });
+    std::ranges::copy_if(candidates.links_of[fragment], std::back_inserter(free), [&](std::size_t other) {
+      return selection.has_free_ends(other) && !share_an_end(candidates.pairs[other], candidates.pairs[link]);
+    });
   }
-  std::ranges::sort(free);
   return free;
 }
 
@@ -35,7 +39,7 @@ public:
   explicit Bound(const LinkCandidates& candidates)
       : candidates_(candidates), most_(candidates.vertices), is_given_(candidates.fragments.size()) {}
 
-  // The most that a selection can weigh with some of these links, each of which has an end on these
+  // The most that a selection can weigh with some of these links too, each of which has an end on these
   // fragments. An end has one link at most, so each end counts with its heaviest one; of a link between two
   // of the fragments, with a half. What tubes cost now, larger ones need not.
   double most_with(const Selection& selection, const std::vector<std::size_t>& fragments,
@@ -82,9 +86,10 @@ private:
 bool exchange_for(const LinkCandidates& candidates, Selection& selection, std::size_t link, Bound& bound) {
   const double before = selection.weight();
   const Selection::Released released = selection.release_tubes_of(link);
-  if (!selection.take(link)) return false;
-  const std::vector<std::size_t> others = free_links_of(released.fragments, selection, candidates);
-  if (bound.most_with(selection, released.fragments, others) <= before) return false;  // as nearly always
+  std::vector<std::size_t> others = free_links_with(link, released.fragments, selection, candidates);
+  const double most = bound.most_with(selection, released.fragments, others) + candidates.pairs[link].weight;
+  if (most <= before || !selection.take(link)) return false;  // nearly always the former
+  std::ranges::sort(others);
   const Selection::Mark with_link = selection.mark();
   const auto take_what_is_possible = [&] {
     selection.take_possible(released.links);
