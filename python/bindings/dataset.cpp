@@ -14,7 +14,9 @@
 #include "tanglebin/dataset/generate_dataset.hpp"
 #include "tanglebin/dataset/merge_datasets.hpp"
 #include "tanglebin/dataset/repair_dataset.hpp"
+#include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/dataset/verify_dataset.hpp"
+#include "tanglebin/experiment/run.hpp"
 #include "tanglebin/experiment/score_dataset.hpp"
 #include "tanglebin/io/configuration.hpp"
 #include "tanglebin/io/depth_input.hpp"
@@ -235,6 +237,12 @@ void bind_index(py::module_& module) {
       .def(
           "recipe_of", [](const Index& index, const CaseId& id) { return recipe_of(index.dataset, id); },
           py::arg("id"), doc::dataset::recipe_of)
+      .def(
+          "known",
+          [](const Index& index, const CaseId& id, const std::string& scanner) {
+            return known_scene(recipe_seen(index.dataset, {id, scanner}), id);
+          },
+          py::arg("id"), py::arg("scanner") = "")
       .def(
           "cloud",
           [](const Index& index, const CaseId& id, const std::string& scanner) {

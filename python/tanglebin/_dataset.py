@@ -10,7 +10,7 @@ from typing import Iterator, Sequence, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from tanglebin._core import CaseId, CaseRecord, Index, PointCloud, Recipe, SceneScore, Tube
+from tanglebin._core import CaseId, CaseRecord, Index, KnownScene, PointCloud, Recipe, SceneScore, Tube
 
 
 class Case:
@@ -44,6 +44,11 @@ class Case:
         return self.cloud_of(self._index.recipe.scanner_name)
 
     @cached_property
+    def known(self) -> KnownScene:
+        """What model_tubes() is told of the first scanner's cloud: bin, camera, and kinds of tubes."""
+        return self.known_of(self._index.recipe.scanner_name)
+
+    @cached_property
     def depths(self) -> NDArray[np.float32]:
         """The first scanner's depths along the camera's z axis, h x w, m; NaN if nothing was measured."""
         return self.depths_of(self._index.recipe.scanner_name)
@@ -56,6 +61,10 @@ class Case:
     def cloud_of(self, scanner: str) -> PointCloud:
         """Reads the cloud of the scanner of this name."""
         return self._index.cloud(self.id, scanner)
+
+    def known_of(self, scanner: str) -> KnownScene:
+        """What model_tubes() is told of the cloud of the scanner of this name. Raises InputError if there is none."""
+        return self._index.known(self.id, scanner)
 
     def depths_of(self, scanner: str) -> NDArray[np.float32]:
         """Reads the depths of the scanner of this name."""

@@ -18,6 +18,7 @@ def test_cases_are_listed_and_read_when_asked_for(dataset, dataset_directory, re
     assert len(case.tubes) == 3 and set(np.unique(case.cloud.labels)) == {0, 1, 2, 3}
     assert case.cloud is case.cloud  # read once
     assert case.depths.shape == case.labels.shape == (150, 240)
+    assert case.known.camera == recipe.camera and case.known.support.bin == recipe.bin
     assert case.record.id == case.id and case.record.points == len(case.cloud)
     assert isinstance(case.record, tanglebin.CaseRecord) and '"set":"A"' in case.record.json.replace(" ", "")
     assert {type(file) for file in case.record.files} == {tanglebin.FileRecord}
@@ -44,6 +45,35 @@ def test_the_case_on_disk_is_the_case_that_is_simulated(dataset, scene):
     np.testing.assert_array_equal(case.cloud.points, cloud.points)
     np.testing.assert_array_equal(case.labels, tanglebin.label_image(scene.scan))
     np.testing.assert_allclose(case.depths, tanglebin.depth_image(scene.scan), atol=5.1e-5)
+
+
+TWO_SCANNERS = """
+[[scanner]]
+name = "above"
+preset = "paper"
+[[scanner]]
+name = "aslant"
+preset = "paper"
+look_at = [0, 0, 0]
+distance = 1.2
+tilt_deg = { min = 20, max = 30 }
+"""
+
+
+def test_the_cloud_of_each_scanner_is_modelled_with_its_own_camera(source, tmp_path):
+    text = (source / "recipes" / "set-a.toml").read_text()
+    before, after = text.split("[scanner]", 1)
+    recipe = tanglebin.Recipe(before + TWO_SCANNERS + after[after.index("[[set]]"):])
+    tanglebin.generate_dataset(recipe, tmp_path / "seen-twice", wanted=[tanglebin.CaseId("A", 3, 1)])
+    (case,) = tanglebin.Dataset(tmp_path / "seen-twice")
+    assert case.known.camera == case.known_of("above").camera == recipe.camera
+    assert case.known.camera.pose[2, 3] == 2 and case.known_of("aslant").camera.pose[2, 3] < 1.2
+    for scanner in ["above", "aslant"]:
+        cloud = case.cloud_of(scanner)
+        model = tanglebin.model_tubes(cloud, case.known_of(scanner))
+        assert tanglebin.score(cloud.labels, model.labels).micro_recall > 0.999
+    with pytest.raises(tanglebin.InputError, match="below"):
+        case.known_of("below")
 
 
 def points_of(case):
