@@ -18,18 +18,28 @@ namespace tanglebin {
 namespace {
 
 bool share_an_end(const WeightedPair& a, const WeightedPair& b) {
-  return a.first == b.first || a.first == b.second || a.second == b.first || a.second == b.second;
+  const bool same = a.first == b.first || a.second == b.second;
+  const bool crossed = a.first == b.second || a.second == b.first;
+  return same || crossed;
 }
 
 // The links of these fragments whose ends are free if this one is taken.
 std::vector<std::size_t> free_links_with(std::size_t link, const std::vector<std::size_t>& fragments,
                                          const Selection& selection, const LinkCandidates& candidates) {
-  std::vector<std::size_t> free;
+  std::size_t size = 0;
+  for (const std::size_t fragment : fragments) size += candidates.links_of[fragment].size();
+  std::vector<std::size_t> free(size);
+  // Whether a link is free is hard to predict, so this does not branch on it.
+  auto end = free.begin();
   for (const std::size_t fragment : fragments) {
-    std::ranges::copy_if(candidates.links_of[fragment], std::back_inserter(free), [&](std::size_t other) {
-      return selection.has_free_ends(other) && !share_an_end(candidates.pairs[other], candidates.pairs[link]);
-    });
+    for (const std::size_t other : candidates.links_of[fragment]) {
+      const bool is_free = selection.has_free_ends(other);
+      const bool is_apart = !share_an_end(candidates.pairs[other], candidates.pairs[link]);
+      *end = other;
+      end += is_free && is_apart ? 1 : 0;
+    }
   }
+  free.erase(end, free.end());
   return free;
 }
 

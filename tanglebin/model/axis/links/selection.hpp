@@ -39,7 +39,9 @@ public:
 
   bool has_free_ends(std::size_t link) const {
     const WeightedPair& pair = candidates_->pairs[link];
-    return links_at_[pair.first] == no_index && links_at_[pair.second] == no_index;
+    const bool first_is_free = links_at_[pair.first] == no_index;
+    const bool second_is_free = links_at_[pair.second] == no_index;
+    return first_is_free && second_is_free;
   }
 
   /// Whether a tube is represented by this fragment.
