@@ -1,7 +1,6 @@
 #include "tanglebin/experiment/run_experiment.hpp"
 
-#include <algorithm>
-#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -57,8 +56,8 @@ Lines run_cloud(const Dataset& dataset, const ExperimentSettings& settings, cons
                 const Place& place) {
   const CaseData data = read_seen_case(dataset, seen);
   const CaseRecord record = dataset.catalogue.record(seen.scene);
-  if (std::ranges::none_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; }))
-    return failed_runs(record, settings, seen, {FailureOf::scene, "no point of the cloud is on a tube"});
+  if (const std::optional<RunFailure> failure = failure_of_scene(data.cloud.labels))
+    return failed_runs(record, settings, seen, *failure);
   const Recipe recipe = recipe_seen(dataset, seen);
   return lines_of_runs(settings, seen, [&](const Entry& entry, const RunId& run) -> Lines {
     const std::optional<std::string> labels = labels_of(entry, run);

@@ -1,9 +1,11 @@
 #include "tanglebin/experiment/run_failure.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/geometry/labels.hpp"
 
 namespace tanglebin {
 namespace {
@@ -12,6 +14,11 @@ constexpr std::array<std::pair<FailureOf, const char*>, 3> names{
     {{FailureOf::scene, "scene"}, {FailureOf::method, "method"}, {FailureOf::worker, "worker"}}};
 
 }  // namespace
+
+std::optional<RunFailure> failure_of_scene(const std::vector<std::int32_t>& labels) {
+  if (std::ranges::any_of(labels, [](std::int32_t label) { return label > bin_label; })) return std::nullopt;
+  return RunFailure{FailureOf::scene, "no point of the cloud is on a tube"};
+}
 
 void add_failure(Json& json, const RunFailure& failure) {
   for (const auto& [of, name] : names) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tanglebin/files/json_record.hpp"
 
@@ -19,6 +21,9 @@ struct RunFailure {
   FailureOf of;
   std::string reason;
 };
+
+/// Why no method can be scored on a cloud with these true labels; none if a point is on a tube.
+std::optional<RunFailure> failure_of_scene(const std::vector<std::int32_t>& labels);
 
 /// Adds the failure to a line.
 void add_failure(Json& json, const RunFailure& failure);

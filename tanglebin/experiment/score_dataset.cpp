@@ -13,10 +13,8 @@ SceneScore score_scene(const Dataset& dataset, const SeenCase& seen, const Label
   expect_there(labels, {1});
   const CaseData data = read_seen_case(dataset, seen);
   SceneScore scene{.seen = seen};
-  if (std::ranges::none_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; })) {
-    scene.failure = {FailureOf::scene, "no point of the cloud is on a tube"};
-    return scene;
-  }
+  scene.failure = failure_of_scene(data.cloud.labels);
+  if (scene.failure) return scene;
   try {
     const Entry entry{"labels", labels};
     const KnownScene known = known_scene(recipe_seen(dataset, seen), seen.scene);

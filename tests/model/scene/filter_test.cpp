@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 
-#include "tanglebin/base/picked.hpp"
 #include "tests/model/scene/scanned.hpp"
 
 namespace tanglebin {
