@@ -163,9 +163,8 @@ std::optional<double> mean_on(const Way& way, double most, const Measure& measur
   return sum / places;
 }
 
-/// Keeps the heaviest of the links that it is given. So that thousands of pieces of noise, most of which
-/// could be neighbours, take neither time nor memory without limit. A heap of sixty tubes has some 14,000
-/// links.
+/// Keeps the heaviest of the links that it is given. Of thousands of pieces of noise, nearly any two could be
+/// neighbours: that would take time and memory without limit. A heap of sixty tubes has some 14,000 links.
 class HeaviestLinks {
 public:
   void add(Link link) {

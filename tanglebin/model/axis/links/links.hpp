@@ -40,7 +40,9 @@ double length_max(double length, const LinkSettings& settings);
 
 /// The possible links between fragments of one kind of tube, heaviest first. The settings limit the turn and
 /// the tube's length, and the space between must not have been seen to be empty. For trees, only the
-/// likeliest link from each end to each other fragment. `others` is the space that tubes of other kinds fill.
+/// likeliest link from each end to each other fragment. Of more than 40,000, those are dropped that weigh
+/// least without regard to what was seen of the way and what is in it. `others` is the space that tubes of
+/// other kinds fill.
 std::vector<Link> find_links(const std::vector<Fragment>& fragments, const RangeImage& seen,
                              const TubeKind& kind, const LinkSettings& settings,
                              const std::vector<Ball>& others = {});
