@@ -24,6 +24,10 @@ class Case:
         self.id = id
 
     @cached_property
+    def _first_scanner(self) -> str:
+        return self._index.recipe.scanner_name
+
+    @cached_property
     def record(self) -> CaseRecord:
         """Its entry in the manifest."""
         return self._index.record(self.id)
@@ -41,22 +45,22 @@ class Case:
     @cached_property
     def cloud(self) -> PointCloud:
         """The first scanner's cloud with the true labels, m, world frame."""
-        return self.cloud_of(self._index.recipe.scanner_name)
+        return self.cloud_of(self._first_scanner)
 
     @cached_property
     def known(self) -> KnownScene:
         """What model_tubes() is told of the first scanner's cloud: bin, camera, and kinds of tubes."""
-        return self.known_of(self._index.recipe.scanner_name)
+        return self.known_of(self._first_scanner)
 
     @cached_property
     def depths(self) -> NDArray[np.float32]:
         """The first scanner's depths along the camera's z axis, h x w, m; NaN if nothing was measured."""
-        return self.depths_of(self._index.recipe.scanner_name)
+        return self.depths_of(self._first_scanner)
 
     @cached_property
     def labels(self) -> NDArray[np.int32]:
         """The first scanner's label image, h x w: 0 is the bin, 1 to n are the tubes, -1 is null."""
-        return self.labels_of(self._index.recipe.scanner_name)
+        return self.labels_of(self._first_scanner)
 
     def cloud_of(self, scanner: str) -> PointCloud:
         """Reads the cloud of the scanner of this name."""
@@ -79,7 +83,7 @@ class Case:
 
         The scanner is the first if none is named. mean_scores() sums up many.
         """
-        return self._index.score_labels(self.id, labels, self._index.recipe.scanner_name if scanner is None else scanner)
+        return self._index.score_labels(self.id, labels, self._first_scanner if scanner is None else scanner)
 
     def __repr__(self) -> str:
         return f"<Case {self.id} of {self._index.directory}>"

@@ -9,6 +9,7 @@
 #include "tanglebin/base/random.hpp"
 #include "tanglebin/dataset/generate_dataset.hpp"
 #include "tanglebin/dataset/seen_case.hpp"
+#include "tanglebin/geometry/labels.hpp"
 
 namespace tanglebin {
 namespace {
@@ -31,8 +32,7 @@ std::vector<CaseId> scenes_of(const Recipe& recipe, int count) {
 
 bool shows_a_tube(const Dataset& dataset, const CaseId& id) {
   return std::ranges::all_of(scanners(dataset.recipe), [&](const Scanner& scanner) {
-    const CaseData data = read_seen_case(dataset, {id, scanner.name});
-    return std::ranges::any_of(data.cloud.labels, [](std::int32_t label) { return label > bin_label; });
+    return has_tube(read_seen_case(dataset, {id, scanner.name}).cloud.labels);
   });
 }
 

@@ -10,6 +10,7 @@
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/base/random.hpp"
 #include "tanglebin/dataset/sha256.hpp"
+#include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/scene/resolve_scene.hpp"
 #include "tanglebin/score/score_clouds.hpp"
 #include "tanglebin/score/shown_labels.hpp"
@@ -101,9 +102,8 @@ Model model_case(const KnownScene& known, const CaseData& data, const RunId& run
 
 ModelScore score_model(const CaseData& data, const Model& model, bool has_tubes) {
   const std::vector<std::int32_t> truth = picked(truth_labels(data.cloud, data.cloud_file), model.filtered);
-  if (std::ranges::none_of(truth, [](std::int32_t label) { return label > bin_label; })) {
+  if (!has_tube(truth))
     throw InputError({data.cloud_file, 0, ""}, "no point on a tube is left after filtering");
-  }
   const std::vector<std::uint8_t> mixed =
       data.cloud.mixed.empty() ? std::vector<std::uint8_t>{} : picked(data.cloud.mixed, model.filtered);
   ModelScore found{score(truth, picked(model.labels, model.filtered), mixed), std::nullopt};

@@ -1,6 +1,5 @@
 #include "tanglebin/experiment/run_failure.hpp"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -16,7 +15,7 @@ constexpr std::array<std::pair<FailureOf, const char*>, 3> names{
 }  // namespace
 
 std::optional<RunFailure> failure_of_scene(const std::vector<std::int32_t>& labels) {
-  if (std::ranges::any_of(labels, [](std::int32_t label) { return label > bin_label; })) return std::nullopt;
+  if (has_tube(labels)) return std::nullopt;
   return RunFailure{FailureOf::scene, "no point of the cloud is on a tube"};
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <boost/container_hash/hash.hpp>
 #include <cstddef>
 #include <functional>
@@ -111,10 +110,7 @@ std::vector<std::int32_t> truth_labels(const PointCloud& cloud, const std::strin
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (!cloud.points[i].allFinite()) labels[i] = null_label;
   }
-  const auto is_tube = [](std::int32_t label) { return label > bin_label; };
-  if (std::ranges::none_of(labels, is_tube)) {
-    throw InputError({file, 0, ""}, "no point on a tube", "at least one to score");
-  }
+  if (!has_tube(labels)) throw InputError({file, 0, ""}, "no point on a tube", "at least one to score");
   return labels;
 }
 
