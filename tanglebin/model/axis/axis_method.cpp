@@ -250,11 +250,11 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   std::vector<Vector3f> voters = has_ramps ? without(ramps, voting.points, voting.filtered) : voting.points;
   clock.end_step("filter", voting.points.size(), "points");
 
-  const std::vector<std::vector<Vector3f>> by_kind =
+  std::vector<std::vector<Vector3f>> by_kind =
       points_by_kind(std::move(voters), known, settings.vote, settings.fragment);
   for (std::size_t i = 0; i < known.kinds.size(); ++i) {
-    voting.of_kinds.push_back(
-        vote_for_axes(by_kind[i], known.support, known.camera, known.kinds[i].radius, settings.vote));
+    voting.of_kinds.push_back(vote_for_axes(std::move(by_kind[i]), known.support, known.camera,
+                                            known.kinds[i].radius, settings.vote));
   }
   clock.end_step("vote", number_of_votes(voting), "votes");
 

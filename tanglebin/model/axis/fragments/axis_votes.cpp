@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace tanglebin {
 namespace {
@@ -23,19 +24,17 @@ bool is_clear_of(const Boxes& solid, const Vector3f& axis, float clearance) {
       solid, [&](const auto& box) { return box.squaredExteriorDistance(axis) < clearance * clearance; });
 }
 
-std::vector<Vector3f> without_floor(const std::vector<Vector3f>& points, const Support& support,
-                                    double margin) {
-  std::vector<Vector3f> kept = points;
-  if (support.shape == Support::Shape::nothing) return kept;
-  for (Vector3f& point : kept) {
+std::vector<Vector3f> without_floor(std::vector<Vector3f> points, const Support& support, double margin) {
+  if (support.shape == Support::Shape::nothing) return points;
+  for (Vector3f& point : points) {
     if (point.z() < margin) point.setConstant(std::numeric_limits<float>::quiet_NaN());
   }
-  return kept;
+  return points;
 }
 
 }  // namespace
 
-AxisVotes vote_for_axes(const std::vector<Vector3f>& points, const Support& support, const Camera& camera,
+AxisVotes vote_for_axes(std::vector<Vector3f> points, const Support& support, const Camera& camera,
                         double radius, const VoteSettings& settings) {
   const Vector3f nothing = Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
   AxisVotes result{std::vector(points.size(), nothing), std::vector(points.size(), nothing)};
@@ -44,12 +43,14 @@ AxisVotes vote_for_axes(const std::vector<Vector3f>& points, const Support& supp
   const float clearance = std::max(
       0.0F, depth * (1 - static_cast<float>(settings.bin_tolerance)) - static_cast<float>(support.margin));
   const Boxes solid = in_single_precision(solid_parts(support));
-  const PixelGrid grid(without_floor(points, support, settings.floor_margin * radius), camera);
-  const float reach = suitable_reach(grid, radius, settings.patch);
-  const std::vector<std::optional<Patch>> patches = surface_patches(grid, reach, radius, settings.patch);
-  for (std::size_t item = 0; item < patches.size(); ++item) {
-    if (!patches[item]) continue;
-    const Patch& patch = *patches[item];
+  const PixelGrid grid(without_floor(std::move(points), support, settings.floor_margin * radius), camera);
+  const PatchSampling sampling = suitable_sampling(grid, radius, settings.patch);
+  const auto [reach, stride] = sampling;
+  const std::vector<std::optional<Patch>> patches = surface_patches(grid, sampling, radius, settings.patch);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (!patches[i]) continue;
+    const Patch& patch = *patches[i];
+    const std::size_t item = i * stride;
     // The plane lies below the surface by the mean sagitta of the neighbours' arc: their variance across the
     // tube, divided by its diameter.
     const float sagitta = patch.breadth * reach * reach / (2 * depth);
@@ -57,8 +58,13 @@ AxisVotes vote_for_axes(const std::vector<Vector3f>& points, const Support& supp
     if (!is_clear_of(solid, axis, clearance)) continue;
     const Vector3f to_sensor = (camera.pose.translation().cast<float>() - grid.point(item)).normalized();
     if (patch.normal.dot(to_sensor) < static_cast<float>(settings.facing_min)) continue;
-    result.votes[grid.indices()[item]] = axis;
-    result.normals[grid.indices()[item]] = patch.normal;
+    const std::size_t end = std::min(item + stride, grid.size());
+    for (std::size_t near = item - std::min(item, stride - 1); near < end; ++near) {
+      Vector3f& vote = result.votes[grid.indices()[near]];
+      if (vote.allFinite() || (grid.point(near) - grid.point(item)).norm() > reach) continue;
+      vote = axis;
+      result.normals[grid.indices()[near]] = patch.normal;
+    }
   }
   return result;
 }

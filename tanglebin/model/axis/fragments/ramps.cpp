@@ -1,5 +1,6 @@
 #include "tanglebin/model/axis/fragments/ramps.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,10 +13,10 @@ namespace {
 
 /// Where a point is seen.
 struct ImagePoint {
-  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+  PixelPosition pixel{};
+  float depth = std::numeric_limits<float>::quiet_NaN();  // m; NaN if it is not seen
 
-  std::uint32_t pixel = nowhere;  // row by row
-  float depth = 0;                // m
+  bool is_seen() const { return !std::isnan(depth); }
 };
 
 std::vector<ImagePoint> seen_by(const Camera& camera, const std::vector<Eigen::Vector3f>& points) {
@@ -23,36 +24,35 @@ std::vector<ImagePoint> seen_by(const Camera& camera, const std::vector<Eigen::V
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::optional<SeenPixel> seen = seen_pixel(camera, points[i].cast<double>());
     if (!seen) continue;
-    const auto [column, row] = seen->pixel;
-    result[i] = {static_cast<std::uint32_t>(row * camera.width + column), static_cast<float>(seen->depth)};
+    result[i] = {seen->pixel, static_cast<float>(seen->depth)};
   }
   return result;
 }
 
-/// The depth of the nearest point in each pixel, of the rows of the image that have points.
+/// The depth of the nearest point in each pixel, of the part of the image that has points.
 struct DepthGrid {
-  std::size_t first_row = 0;
+  PixelPosition first{};  // of the image
   std::size_t width = 0;
   std::size_t height = 0;
   std::vector<float> depths{};  // m, row by row; NaN where there is no point
 
-  std::size_t pixel_of(const ImagePoint& point) const { return point.pixel - first_row * width; }
+  std::size_t pixel_of(const ImagePoint& point) const {
+    return static_cast<std::size_t>(point.pixel.row - first.row) * width +
+           static_cast<std::size_t>(point.pixel.column - first.column);
+  }
 };
 
-DepthGrid depth_grid(const std::vector<ImagePoint>& points, const Camera& camera) {
-  std::uint32_t first = ImagePoint::nowhere;
-  std::uint32_t last = 0;
-  for (const auto& [pixel, depth] : points) {
-    if (pixel == ImagePoint::nowhere) continue;
-    first = std::min(first, pixel);
-    last = std::max(last, pixel);
+DepthGrid depth_grid(const std::vector<ImagePoint>& points) {
+  Eigen::AlignedBox2i part;
+  for (const ImagePoint& point : points) {
+    if (point.is_seen()) part.extend(Eigen::Vector2i(point.pixel.column, point.pixel.row));
   }
-  if (first == ImagePoint::nowhere) return {};
-  const auto width = static_cast<std::size_t>(camera.width);
-  DepthGrid grid{first / width, width, last / width - first / width + 1};
+  if (part.isEmpty()) return {};
+  const Eigen::Matrix<std::size_t, 2, 1> size = (part.sizes() + Eigen::Vector2i::Ones()).cast<std::size_t>();
+  DepthGrid grid{{part.min().x(), part.min().y()}, size.x(), size.y()};
   grid.depths.assign(grid.width * grid.height, std::numeric_limits<float>::quiet_NaN());
   for (const ImagePoint& point : points) {
-    if (point.pixel == ImagePoint::nowhere) continue;
+    if (!point.is_seen()) continue;
     float& nearest = grid.depths[grid.pixel_of(point)];
     if (!(nearest <= point.depth)) nearest = point.depth;
   }
@@ -105,7 +105,7 @@ public:
     std::vector<std::uint8_t> marked(grid_.depths.size());
     for (const Run& run : runs_) mark(run, marked);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (points[i].pixel == ImagePoint::nowhere) continue;
+      if (!points[i].is_seen()) continue;
       const std::size_t pixel = grid_.pixel_of(points[i]);
       if (marked[pixel] == 0 || points[i].depth != grid_.depths[pixel]) continue;
       ramps.points[i] = true;
@@ -236,7 +236,7 @@ private:
 Ramps find_ramps(const std::vector<Eigen::Vector3f>& points, const Camera& camera, double thinnest,
                  double thickest, const RampSettings& settings) {
   const std::vector<ImagePoint> seen = seen_by(camera, points);
-  const DepthGrid grid = depth_grid(seen, camera);
+  const DepthGrid grid = depth_grid(seen);
   const double pixel_angle = 1 / std::max(camera.fx, camera.fy);
   if (is_mostly_deeper(grid, thinnest / (settings.pixels_min * pixel_angle)))
     return {std::vector<bool>(points.size()), 0};

@@ -32,7 +32,7 @@ std::optional<Patch> patch_at(const PixelGrid& grid, std::size_t item, const Nei
 
 }  // namespace
 
-float suitable_reach(const PixelGrid& grid, double radius, const PatchSettings& settings) {
+PatchSampling suitable_sampling(const PixelGrid& grid, double radius, const PatchSettings& settings) {
   const auto most = static_cast<float>(settings.reach_max * radius);
   const auto least = static_cast<float>(settings.reach_min * radius);
   constexpr std::size_t looked_at = 500;
@@ -44,22 +44,25 @@ float suitable_reach(const PixelGrid& grid, double radius, const PatchSettings& 
     for (std::size_t i = 0; i < found.size() && first + i * stride < grid.size(); ++i)
       counts.push_back(static_cast<float>(found[i].count));
   }
-  if (counts.empty()) return most;
-  const float wanted = static_cast<float>(settings.neighbours) / median(std::move(counts));
+  if (counts.empty()) return {most, 1};
+  const float wanted = most * std::sqrt(static_cast<float>(settings.neighbours) / median(std::move(counts)));
   // Not std::clamp(): the settings may have a least reach above the greatest, which then counts.
-  return std::min(std::max(most * std::sqrt(wanted), least), most);
+  const float reach = std::min(std::max(wanted, least), most);
+  const float surplus = reach / wanted * (reach / wanted);
+  return {reach, std::max(static_cast<std::size_t>(surplus), std::size_t{1})};
 }
 
-std::vector<std::optional<Patch>> surface_patches(const PixelGrid& grid, float reach, double radius,
-                                                  const PatchSettings& settings) {
+std::vector<std::optional<Patch>> surface_patches(const PixelGrid& grid, const PatchSampling& sampling,
+                                                  double radius, const PatchSettings& settings) {
+  const auto [reach, stride] = sampling;
   std::vector<std::optional<Patch>> patches;
-  patches.reserve(grid.size());
+  patches.reserve(grid.size() / stride + 1);
   std::vector<float> roughness;
-  roughness.reserve(grid.size());
+  roughness.reserve(grid.size() / stride + 1);
   Neighbourhoods found;
-  for (std::size_t item = 0; item < grid.size(); ++item) {
-    const std::size_t place = item % found.size();
-    if (place == 0) found = neighbourhoods_of(grid, items_from(item, 1, grid.size()), reach);
+  for (std::size_t item = 0; item < grid.size(); item += stride) {
+    const std::size_t place = patches.size() % found.size();
+    if (place == 0) found = neighbourhoods_of(grid, items_from(item, stride, grid.size()), reach);
     patches.push_back(patch_at(grid, item, found[place], settings));
     if (patches.back()) roughness.push_back(patches.back()->roughness);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -17,14 +18,20 @@ struct Patch {
   float breadth;           ///< the smaller of their two variances within the plane, reaches²
 };
 
-/// The reach, m, within which points have about the desired number of neighbours, for tubes of this radius
-/// (m).
-float suitable_reach(const PixelGrid& grid, double radius, const PatchSettings& settings);
+/// Which patches a surface is looked at by.
+struct PatchSampling {
+  float reach = 0;         ///< m, within which points are neighbours
+  std::size_t stride = 1;  ///< one point of so many has a patch
+};
 
-/// The patch around each point of the grid, from its neighbours within the reach (m). None if these are too
-/// few, on a line, or not on a plane, as where two surfaces meet. Whatever else is in the cloud, a patch of a
-/// tube of this radius (m) is as good as a plane.
-std::vector<std::optional<Patch>> surface_patches(const PixelGrid& grid, float reach, double radius,
-                                                  const PatchSettings& settings);
+/// The sampling for tubes of this radius (m) by which points have about the desired number of neighbours and,
+/// where the least reach gives them more, each point still is in about that number of patches.
+PatchSampling suitable_sampling(const PixelGrid& grid, double radius, const PatchSettings& settings);
+
+/// The patches around the points of the grid, the i-th around the point at item i × stride. None where the
+/// neighbours are too few, on a line, or not on a plane, as where two surfaces meet. Whatever else
+/// is in the cloud, a patch of a tube of this radius (m) is as good as a plane.
+std::vector<std::optional<Patch>> surface_patches(const PixelGrid& grid, const PatchSampling& sampling,
+                                                  double radius, const PatchSettings& settings);
 
 }  // namespace tanglebin

@@ -37,8 +37,8 @@ std::optional<float> radius_of_pair(const Surface& surface, std::size_t first, s
 }  // namespace
 
 std::vector<PairRadius> radii_of_pairs(const PixelGrid& grid, double radius, const PatchSettings& settings) {
-  const float reach = suitable_reach(grid, radius, settings);
-  const Surface surface{grid, reach, surface_patches(grid, reach, radius, settings)};
+  const float reach = suitable_sampling(grid, radius, settings).reach;
+  const Surface surface{grid, reach, surface_patches(grid, {reach, 1}, radius, settings)};
   constexpr float share = 0.8F;
   constexpr float slope = 1.5F;  // points that differ more in depth are on two tubes
   const float distance = share * static_cast<float>(radius);

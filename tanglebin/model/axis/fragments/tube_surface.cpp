@@ -45,7 +45,8 @@ struct Measured {
 Measured measure(const Fragment& fragment, std::size_t stride, const std::vector<Capsule>& pieces,
                  NearestAxis& nearest, const std::vector<Eigen::Vector3f>& points, const AxisVotes& votes,
                  const Vector3d& sensor) {
-  constexpr double off_max = 0.3;  // radii; what is farther from the side may be on a face
+  constexpr double off_max = 0.3;    // radii; what is farther from the side may be on a face
+  constexpr double along_max = 0.5;  // a normal that has more of the axis may be a face's
   const double radius = pieces.front().radius;
   const Capsule& longest = *std::ranges::max_element(
       pieces, {}, [](const Capsule& piece) { return (piece.b - piece.a).squaredNorm(); });
@@ -62,7 +63,8 @@ Measured measure(const Fragment& fragment, std::size_t stride, const std::vector
     const Vector3d front = side.cross(along);
     const Vector3d normal = votes.normals[fragment.points[i]].cast<double>();
     const double angle = std::atan2(foot.way.dot(side), foot.way.dot(front));
-    measured.angles.add(angle, std::atan2(normal.dot(side), normal.dot(front)));
+    if (std::abs(normal.dot(along)) < along_max)
+      measured.angles.add(angle, std::atan2(normal.dot(side), normal.dot(front)));
     measured.places.push_back({angle, foot.way.norm(), normal.dot(front)});
   }
   return measured;

@@ -78,7 +78,7 @@ TEST(SurfacePatches, AreThePrincipalComponentsOfAllNeighbours) {
   settings.roughness_max = 1e9;
   for (const std::size_t points : {std::size_t{1}, std::size_t{7}, std::size_t{2001}}) {
     const PixelGrid grid(bumpy_floor(points), test::small_camera());
-    const auto patches = surface_patches(grid, reach, 0.0125, settings);
+    const auto patches = surface_patches(grid, {reach, 1}, 0.0125, settings);
     ASSERT_EQ(patches.size(), grid.size());
     std::size_t found = 0;
     for (std::size_t item = 0; item < grid.size(); ++item) {
@@ -115,7 +115,7 @@ TEST(SurfacePatches, OfAPlaneAreFlat) {
   }
   const PixelGrid grid(points, test::small_camera());
   const Vector3f normal = Vector3f(-0.5F, 0, 1).normalized();
-  for (const auto& patch : surface_patches(grid, reach, 0.0125, {})) {
+  for (const auto& patch : surface_patches(grid, {reach, 1}, 0.0125, {})) {
     ASSERT_TRUE(patch);
     EXPECT_LT((patch->normal - normal).norm(), 1e-3);
     EXPECT_NEAR(patch->roughness, 0, 1e-4);
