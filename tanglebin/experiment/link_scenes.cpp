@@ -79,10 +79,11 @@ private:
   std::vector<Place> middles_;       // of each fragment on its tube; unused if it is on none
 };
 
-// Every link is possible, and any way of cutting the votes is an example.
+// Every link is possible, any way of cutting the votes is an example, and every point has its say.
 AxisSettings settings_to_learn_with() {
   constexpr double any = 1e9;
   AxisSettings settings;
+  settings.vote.patch.at_every_point = true;
   settings.link.chain_prior = settings.link.tree_prior = settings.link.junction_prior = any;
   settings.fragment.sure_min = 0;
   return settings;

@@ -34,7 +34,7 @@ std::ptrdiff_t count_of(const std::vector<std::int32_t>& labels, std::int32_t la
 // Lying, and leaning so that more and more of the upper face is seen.
 TEST(FlatEnds, AreWhereTheTubeIsCut) {
   for (const double radius : {0.006, 0.0125}) {
-    for (const double lean : {0.0, 10.0, 30.0, 50.0}) {
+    for (const double lean : {0.0, 10.0, 30.0, 50.0, 60.0}) {
       const double angle = lean * test::degree;
       const Vector3d way(std::cos(angle), 0.2 * std::cos(angle), std::sin(angle));
       const Vector3d a(-0.1, -0.02, radius);
@@ -44,7 +44,9 @@ TEST(FlatEnds, AreWhereTheTubeIsCut) {
       const Model model = model_tubes(cloud, on_a_plane(radius, 0.2));
       ASSERT_EQ(model.tubes.size(), 1U) << radius << ", leaning by " << lean;
       EXPECT_LT(error_of_ends(model.tubes[0], a, b), 0.1 * radius) << radius << ", leaning by " << lean;
-      EXPECT_EQ(count_of(model.labels, 1), count_of(cloud.labels, 1)) << radius << ", leaning by " << lean;
+      // On the edge of the cut, a point may be as near to the support.
+      EXPECT_NEAR(count_of(model.labels, 1), count_of(cloud.labels, 1), 1)
+          << radius << ", leaning by " << lean;
     }
   }
 }

@@ -48,6 +48,7 @@ PatchSampling suitable_sampling(const PixelGrid& grid, double radius, const Patc
   const float wanted = most * std::sqrt(static_cast<float>(settings.neighbours) / median(std::move(counts)));
   // Not std::clamp(): the settings may have a least reach above the greatest, which then counts.
   const float reach = std::min(std::max(wanted, least), most);
+  if (settings.at_every_point) return {reach, 1};
   const float surplus = reach / wanted * (reach / wanted);
   return {reach, std::max(static_cast<std::size_t>(surplus), std::size_t{1})};
 }

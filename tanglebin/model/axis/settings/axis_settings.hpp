@@ -20,12 +20,13 @@ struct RampSettings {
 
 /// Surface patches: a plane through the neighbours of each point.
 struct PatchSettings {
-  int neighbours = 40;         ///< desired number of points in a patch
-  int neighbours_min = 5;      ///< a point with fewer neighbours has no patch
-  double reach_min = 0.36;     ///< radii; the reach, within which points are neighbours, is at least this
-  double reach_max = 0.85;     ///< radii; and at most this
-  double breadth_min = 0.02;   ///< reaches²; minimum variance of the neighbours across their line
-  double roughness_max = 3.0;  ///< medians; maximum variance of the neighbours about their plane
+  int neighbours = 40;          ///< desired number of points in a patch
+  int neighbours_min = 5;       ///< a point with fewer neighbours has no patch
+  double reach_min = 0.36;      ///< radii; the reach, within which points are neighbours, is at least this
+  double reach_max = 0.85;      ///< radii; and at most this
+  double breadth_min = 0.02;    ///< reaches²; minimum variance of the neighbours across their line
+  double roughness_max = 3.0;   ///< medians; maximum variance of the neighbours about their plane
+  bool at_every_point = false;  ///< even where points are so dense that fewer patches show as much
 };
 
 /// Vote: finds the axis point that a point's normal leads to.

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
+#include <set>
 
 #include "tanglebin/geometry/capsule.hpp"
 #include "tests/model/scene/scanned.hpp"
@@ -73,6 +76,45 @@ TEST(AxisVotes, OfTubesThatTouchStayADiameterApart) {
   for (const Eigen::Vector3f& vote : votes.votes) {
     if (!vote.allFinite()) continue;
     EXPECT_LT(distance_from_axes(tubes, vote), 0.004);
+  }
+}
+
+// The points of a half of a cylinder along x, as a camera far above it sees them.
+std::vector<Eigen::Vector3f> half_cylinder(double spacing) {
+  std::vector<Eigen::Vector3f> points;
+  for (double x = -0.05; x <= 0.05; x += spacing) {
+    for (double y = -0.9 * radius; y <= 0.9 * radius; y += spacing)
+      points.push_back(Eigen::Vector3d(x, y, 0.1 + std::sqrt(radius * radius - y * y)).cast<float>());
+  }
+  return points;
+}
+
+// Where points are dense, neighbours share a vote. None loses its own by that, wherever its row begins.
+TEST(AxisVotes, AreSharedWherePointsAreDense) {
+  KnownScene scene = paper_scene();
+  scene.camera.fx *= 10;
+  scene.camera.fy *= 10;
+  scene.camera.width *= 10;
+  scene.camera.height *= 10;
+  scene.camera.cx *= 10;
+  scene.camera.cy *= 10;
+  const std::vector<Eigen::Vector3f> points = half_cylinder(0.0004);
+  VoteSettings of_all;
+  of_all.patch.at_every_point = true;
+  const AxisVotes shared = vote_for_axes(points, scene.support, scene.camera, radius, {});
+  const AxisVotes own = vote_for_axes(points, scene.support, scene.camera, radius, of_all);
+  EXPECT_GE(count_votes(shared), 0.999 * static_cast<double>(count_votes(own)));
+  const auto different = [](const AxisVotes& votes) {
+    std::set<std::array<float, 3>> places;
+    for (const Eigen::Vector3f& vote : votes.votes)
+      if (vote.allFinite()) places.insert({vote.x(), vote.y(), vote.z()});
+    return places.size();
+  };
+  EXPECT_LT(2 * different(shared), different(own));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!shared.votes[i].allFinite() || !own.votes[i].allFinite()) continue;
+    EXPECT_LT((shared.votes[i] - own.votes[i]).norm(), 0.36 * radius + 0.001);
+    EXPECT_LT(std::hypot(shared.votes[i].y(), shared.votes[i].z() - 0.1F), 0.002);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <vector>
@@ -119,6 +120,51 @@ TEST(SurfacePatches, OfAPlaneAreFlat) {
     ASSERT_TRUE(patch);
     EXPECT_LT((patch->normal - normal).norm(), 1e-3);
     EXPECT_NEAR(patch->roughness, 0, 1e-4);
+  }
+}
+
+// One of so many points of a plane, so far apart, on rows of a camera that looks straight down on it.
+std::vector<Vector3f> plane_of_points(double spacing) {
+  std::vector<Vector3f> points;
+  for (double x = -0.01; x <= 0.01; x += spacing) {
+    for (double y = -0.01; y <= 0.01; y += spacing) points.push_back(Vector3d(x, y, 0).cast<float>());
+  }
+  return points;
+}
+
+// A disc of the reach has π reach² / spacing² points.
+TEST(SurfacePatches, LeaveEachDensePointInAsManyPatchesAsAPatchHasPoints) {
+  const PatchSettings settings;
+  const double radius = 0.0125;
+  for (const double spacing : {0.0004, 0.0005, 0.001, 0.002}) {
+    const PixelGrid grid(plane_of_points(spacing), test::small_camera());
+    const auto [reach_found, stride] = suitable_sampling(grid, radius, settings);
+    EXPECT_GE(reach_found, 0.999 * settings.reach_min * radius);
+    EXPECT_LE(reach_found, 1.001 * settings.reach_max * radius);
+    const double neighbours = std::numbers::pi * std::pow(reach_found / spacing, 2);
+    EXPECT_TRUE(stride == 1 || reach_found < 1.001 * settings.reach_min * radius);
+    EXPECT_GT(neighbours / static_cast<double>(stride), 0.5 * settings.neighbours);
+    EXPECT_EQ(stride > 1, spacing < 0.0006) << spacing;
+    PatchSettings of_all = settings;
+    of_all.at_every_point = true;
+    EXPECT_EQ(suitable_sampling(grid, radius, of_all).stride, 1U);
+    EXPECT_EQ(suitable_sampling(grid, radius, of_all).reach, reach_found);
+  }
+}
+
+TEST(SurfacePatches, OfSomePointsAreThoseThatAllWouldHave) {
+  const PixelGrid grid(bumpy_floor(2001), test::small_camera());
+  const auto all = surface_patches(grid, {reach, 1}, 0.0125, {.roughness_max = 1e9});
+  for (const std::size_t stride : {std::size_t{2}, std::size_t{3}, std::size_t{5000}}) {
+    const auto some = surface_patches(grid, {reach, stride}, 0.0125, {.roughness_max = 1e9});
+    ASSERT_EQ(some.size(), (grid.size() + stride - 1) / stride);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const auto& whole = all[i * stride];
+      ASSERT_EQ(some[i].has_value(), whole.has_value());
+      if (!whole) continue;
+      EXPECT_EQ(some[i]->normal, whole->normal);
+      EXPECT_EQ(some[i]->mean, whole->mean);
+    }
   }
 }
 
