@@ -8,6 +8,10 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <utility>
+#include <vector>
+
+#include "tanglebin/base/median.hpp"
 
 namespace tanglebin {
 namespace {
@@ -65,15 +69,20 @@ private:
                                                       : thickness;
   }
 
-  // m, root mean square distance from their mean. No motion here changes proportions.
+  // m, median distance from the point in the middle: some points may be where nothing was measured. No motion
+  // here changes proportions.
   static double spread_of(const std::vector<Vector3d>& points, const Affine3d& motion) {
-    Vector3d mean = Vector3d::Zero();
-    double squares = 0;
-    for (const Vector3d& point : points) {
-      mean += point / static_cast<double>(points.size());
-      squares += point.squaredNorm() / static_cast<double>(points.size());
-    }
-    return std::cbrt(std::abs(motion.linear().determinant())) * std::sqrt(squares - mean.squaredNorm());
+    const auto middle_along = [&](Eigen::Index axis) {
+      std::vector<double> places;
+      places.reserve(points.size());
+      for (const Vector3d& point : points) places.push_back(point[axis]);
+      return median(std::move(places));
+    };
+    const Vector3d middle(middle_along(0), middle_along(1), middle_along(2));
+    std::vector<double> distances;
+    distances.reserve(points.size());
+    for (const Vector3d& point : points) distances.push_back((point - middle).norm());
+    return std::cbrt(std::abs(motion.linear().determinant())) * median(std::move(distances));
   }
 
   static Eigen::AlignedBox3d space_of(const Support& support) {

@@ -94,6 +94,19 @@ TEST(Diagnose, RealColoursAndTheColoursOfLabelsAreNoMistake) {
   EXPECT_EQ(model.labels, model_of(view).labels);
 }
 
+// Some drivers write a place far away where nothing was measured. A hundred times smaller, such a scan would
+// be a spot on the floor, and wider than a tube only because of these.
+TEST(Diagnose, SaysThatTheCameraCannotSeePlacesThatStandForNothing) {
+  View view = right_view();
+  for (std::size_t i = 0; i < view.cloud.points.size(); i += 8) view.cloud.points[i] = {0, 0, 10};
+  const Model model = model_of(view);
+  EXPECT_EQ(
+      text_of(model.findings),
+      "warning camera: 13 % of the points are behind the camera, where it cannot have seen them: they are "
+      "null\n");
+  EXPECT_EQ(model.tubes.size(), 4U);
+}
+
 TEST(Diagnose, CountsEveryPointOnce) {
   View view = right_view();
   std::vector<Vector3f>& points = view.cloud.points;
