@@ -18,7 +18,7 @@ struct Patch {
   float breadth;           ///< the smaller of their two variances within the plane, reaches²
 };
 
-/// Which patches a surface is looked at by.
+/// How densely a surface is covered with patches.
 struct PatchSampling {
   float reach = 0;         ///< m, within which points are neighbours
   std::size_t stride = 1;  ///< one point of so many has a patch
@@ -29,8 +29,8 @@ struct PatchSampling {
 PatchSampling suitable_sampling(const PixelGrid& grid, double radius, const PatchSettings& settings);
 
 /// The patches around the points of the grid, the i-th around the point at item i × stride. None where the
-/// neighbours are too few, on a line, or not on a plane, as where two surfaces meet. Whatever else
-/// is in the cloud, a patch of a tube of this radius (m) is as good as a plane.
+/// neighbours are too few, on a line, or not on a plane, as where two surfaces meet. Whatever else is in the
+/// cloud, a patch of a tube of this radius (m) is as good as a plane.
 std::vector<std::optional<Patch>> surface_patches(const PixelGrid& grid, const PatchSampling& sampling,
                                                   double radius, const PatchSettings& settings);
 
