@@ -56,7 +56,6 @@ double distance_from_cut(const Capsule& capsule, const Vector3d& end, const Vect
 
 double surface_distance_of(const Claim& claim, const Vector3d& point) {
   const auto& [a, b, radius, flat_at_a, flat_at_b] = claim.capsule;
-  if (!flat_at_a && !flat_at_b) return std::abs(axis_distance(claim.capsule, point) - radius);
   const bool is_nearer_to_b = nearest_on_axis(claim.capsule, point) > 0.5;
   const bool is_cut = is_nearer_to_b ? flat_at_b : flat_at_a;
   if (!is_cut || a == b) return std::abs(axis_distance(claim.capsule, point) - radius);
