@@ -32,29 +32,32 @@ struct Guess {
 /// Tells how well points fit a scene.
 class Fit {
 public:
-  explicit Fit(const KnownScene& known)
-      : known_(known),
+  Fit(const std::vector<Vector3d>& points, const KnownScene& known)
+      : points_(points),
+        known_(known),
         parts_(solid_parts(known.support)),
         around_(space_of(known.support)),
+        spread_(spread_of(points)),
         least_spread_(least_spread_of(known)) {}
 
   // The share of the points that the camera can see in the space of the tubes, and the share on the support.
   // Points that are nearly in one place show no tube, and a camera sees nothing from under a floor.
-  double of(const std::vector<Vector3d>& points, const Affine3d& motion, const Isometry3d& pose) const {
-    if (spread_of(points, motion) < least_spread_) return 0;
+  double of(const Affine3d& motion, const Isometry3d& pose) const {
+    // No motion here changes proportions.
+    if (std::cbrt(std::abs(motion.linear().determinant())) * spread_ < least_spread_) return 0;
     Camera camera = known_.camera;
     camera.pose = pose;
     const Isometry3d to_support = known_.support.pose.inverse(Eigen::Isometry);
     const bool has_support = known_.support.shape != Support::Shape::nothing;
     if (has_support && (to_support * pose.translation()).z() <= 0) return 0;
     double fits = 0;
-    for (const Vector3d& point : points) {
+    for (const Vector3d& point : points_) {
       const Vector3d moved = motion * point;
       const Vector3d in_support = to_support * moved;
       if (!is_seen(camera, moved) || !around_.contains(in_support)) continue;
       fits += is_on_support(in_support) ? 2 : 1;
     }
-    return fits / static_cast<double>(points.size());
+    return fits / static_cast<double>(points_.size());
   }
 
 private:
@@ -69,9 +72,8 @@ private:
                                                       : thickness;
   }
 
-  // m, median distance from the point in the middle: some points may be where nothing was measured. No motion
-  // here changes proportions.
-  static double spread_of(const std::vector<Vector3d>& points, const Affine3d& motion) {
+  // m, median distance from the point in the middle: some points may be where nothing was measured.
+  static double spread_of(const std::vector<Vector3d>& points) {
     const auto middle_along = [&](Eigen::Index axis) {
       std::vector<double> places;
       places.reserve(points.size());
@@ -82,7 +84,7 @@ private:
     std::vector<double> distances;
     distances.reserve(points.size());
     for (const Vector3d& point : points) distances.push_back((point - middle).norm());
-    return std::cbrt(std::abs(motion.linear().determinant())) * median(std::move(distances));
+    return median(std::move(distances));
   }
 
   static Eigen::AlignedBox3d space_of(const Support& support) {
@@ -109,9 +111,11 @@ private:
            });
   }
 
+  const std::vector<Vector3d>& points_;
   const KnownScene& known_;
   std::vector<Eigen::AlignedBox3d> parts_;
   Eigen::AlignedBox3d around_;
+  double spread_;        // m
   double least_spread_;  // m
 };
 
@@ -230,17 +234,16 @@ std::vector<Guess> guesses_of_pose(const KnownScene& known) {
 
 std::optional<Remedy> remedy_for(const std::vector<Vector3d>& points, const KnownScene& known) {
   if (points.empty()) return std::nullopt;
-  const Fit fit(known);
+  const Fit fit(points, known);
   std::vector<Guess> all = guesses_of_frame(known);
   std::ranges::move(guesses_of_pose(known), std::back_inserter(all));
   std::vector<double> fits;
   fits.reserve(all.size());
-  for (const Guess& guess : all) fits.push_back(fit.of(points, guess.cloud, guess.camera));
+  for (const Guess& guess : all) fits.push_back(fit.of(guess.cloud, guess.camera));
   const double best = std::ranges::max(fits);
   constexpr double gain = 0.3;
   constexpr double least = 0.8;
-  if (best < std::max(least, fit.of(points, Affine3d::Identity(), known.camera.pose) + gain))
-    return std::nullopt;
+  if (best < std::max(least, fit.of(Affine3d::Identity(), known.camera.pose) + gain)) return std::nullopt;
   const Guess* simplest = nullptr;
   double its_fit = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
