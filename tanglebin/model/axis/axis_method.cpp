@@ -185,7 +185,7 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
 
   std::vector<std::vector<TubeCandidate>> candidates;
   for_each_kind([&](const AxisSteps& steps, const TubeKind& kind) {
-    candidates.push_back(fit_candidates(steps, voting.points, kind, known.camera, settings));
+    candidates.push_back(fit_candidates(steps, voting.points, kind, known, settings));
   });
   drop_what_is_no_tube(candidates, known.support);
   std::vector<std::vector<ForeignTube>> foreign = take_foreign(candidates, known.kinds);

@@ -51,7 +51,7 @@ double usual_scatter(const std::vector<std::vector<TubeCandidate>>& of_kinds) {
   std::vector<std::pair<double, std::size_t>> scatters;
   for (const std::vector<TubeCandidate>& candidates : of_kinds) {
     for (const TubeCandidate& candidate : candidates)
-      scatters.emplace_back(candidate.surface.scatter, candidate.points);
+      scatters.emplace_back(candidate.surface->scatter, candidate.points);
   }
   return weighted_median(std::move(scatters));
 }
@@ -60,7 +60,7 @@ double usual_scatter(const std::vector<std::vector<TubeCandidate>>& of_kinds) {
 bool scatters_as_usual(const TubeCandidate& candidate, double usual) {
   constexpr double of_fit = 0.03;  // radii
   constexpr double factor_max = 2;
-  return candidate.surface.scatter <= std::max(factor_max * usual, of_fit * candidate.tube.radius);
+  return candidate.surface->scatter <= std::max(factor_max * usual, of_fit * candidate.tube.radius);
 }
 
 void drop_unless(std::vector<std::vector<TubeCandidate>>& of_kinds, const auto& is_tube) {
@@ -112,15 +112,17 @@ std::optional<double> foreign_radius(const TubeCandidate& candidate, const std::
 }  // namespace
 
 std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
-                                          const TubeKind& kind, const Camera& camera,
+                                          const TubeKind& kind, const KnownScene& known,
                                           const AxisSettings& settings) {
+  const bool is_in_bin = known.support.shape == Support::Shape::bin;
   std::vector<TubeCandidate> candidates;
   for (const std::vector<std::size_t>& members : steps.tubes) {
     if (is_false_speck(steps, members, kind, settings.link)) continue;
     Tube tube = fit_tube(steps.fragments, members, steps.links, steps.chosen, points, kind, settings.fit);
-    const TubeSurface surface = surface_of(tube, steps.fragments, members, points, steps.votes, camera);
+    std::optional<TubeSurface> surface;
+    if (!is_in_bin) surface = surface_of(tube, steps.fragments, members, points, steps.votes, known.camera);
     std::vector<SeenRadius> seen =
-        seen_radii(tube, steps.fragments, members, points, camera.pose.translation());
+        seen_radii(tube, steps.fragments, members, points, known.camera.pose.translation());
     candidates.push_back(
         {members, number_of_points(steps.fragments, members), std::move(tube), surface, std::move(seen)});
   }
@@ -133,7 +135,7 @@ void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, con
   });
   if (support.shape == Support::Shape::bin) return;
   drop_unless(of_kinds,
-              [&](const TubeCandidate& candidate) { return looks_like_a_tube(candidate.surface, support); });
+              [&](const TubeCandidate& candidate) { return looks_like_a_tube(*candidate.surface, support); });
   const double usual = usual_scatter(of_kinds);
   drop_unless(of_kinds, [&](const TubeCandidate& candidate) { return scatters_as_usual(candidate, usual); });
 }

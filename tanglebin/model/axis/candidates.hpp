@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
-#include "tanglebin/geometry/camera.hpp"
 #include "tanglebin/geometry/tube.hpp"
 #include "tanglebin/model/axis/axis_method.hpp"
 #include "tanglebin/model/axis/fragments/tube_surface.hpp"
@@ -19,7 +19,7 @@ struct TubeCandidate {
   std::vector<std::size_t> fragments;  ///< indices into AxisSteps::fragments, ascending
   std::size_t points;                  ///< of the fragments
   Tube tube;
-  TubeSurface surface;
+  std::optional<TubeSurface> surface;  ///< none in a known bin, where nobody asks
   std::vector<SeenRadius>
       seen{};  ///< of all its points, then of those of each fragment, as far as they show one
 };
@@ -33,7 +33,7 @@ struct ForeignTube {
 /// Fits a tube to each set of fragments in `steps.tubes`, but for specks: of these next to nothing is seen;
 /// or no more than of a ball, and the rest should have been seen.
 std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
-                                          const TubeKind& kind, const Camera& camera,
+                                          const TubeKind& kind, const KnownScene& known,
                                           const AxisSettings& settings);
 
 /// In a known bin there are tubes. Elsewhere there may also be the rim of a bin, a box, or a pipe of quite
