@@ -11,6 +11,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/median.hpp"
+#include "tanglebin/base/stride.hpp"
 #include "tanglebin/model/axis/radius.hpp"
 #include "tanglebin/model/remedy.hpp"
 #include "tanglebin/model/scene/support_frame.hpp"
@@ -97,7 +98,7 @@ private:
 
   // Points with a position, evenly chosen.
   std::vector<Vector3d> some_points(std::size_t wanted) const {
-    const std::size_t stride = valid() / wanted + 1;
+    const std::size_t stride = sampling_stride(valid(), wanted);
     std::vector<Vector3d> points;
     std::size_t number = 0;
     for (const Eigen::Vector3f& point : cloud_.points) {

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
+#include "tanglebin/base/stride.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/model/rim_check.hpp"
 
@@ -27,16 +28,12 @@ Finding warning(const char* code, std::string message) {
   return {Finding::Severity::warning, code, std::move(message)};
 }
 
-// Every so manieth point of a cloud, so that there are about this many.
-std::size_t stride_for(const PointCloud& cloud, std::size_t wanted) {
-  return cloud.points.size() / wanted + 1;
-}
-
 // The median distance, in pixels, of an organized cloud's points from the pixels that they are stored at.
 std::optional<double> distance_from_pixels(const PointCloud& cloud, const Camera& camera) {
   std::vector<double> distances;
   constexpr std::size_t wanted = 2000;
-  for (std::size_t i = 0; i < cloud.points.size(); i += stride_for(cloud, wanted)) {
+  const std::size_t stride = sampling_stride(cloud.points.size(), wanted);
+  for (std::size_t i = 0; i < cloud.points.size(); i += stride) {
     if (!cloud.points[i].allFinite()) continue;
     const std::optional<Eigen::Vector2d> image = project(camera, cloud.points[i].cast<double>());
     const std::size_t row = i / cloud.width;
@@ -275,7 +272,7 @@ std::optional<Finding> doubt_of_rim(const PointCloud& cloud, const KnownScene& k
   RimCells rim(known.support, known.camera);
   constexpr double tolerance = 0.015;
   constexpr std::size_t wanted = 50'000;
-  const std::size_t stride = stride_for(cloud, wanted);
+  const std::size_t stride = sampling_stride(cloud.points.size(), wanted);
   for (std::size_t i = 0; i < cloud.points.size(); i += stride) {
     if (cloud.points[i].allFinite())
       rim.see(cloud.points[i].cast<double>(), tolerance + known.support.margin);
@@ -292,11 +289,16 @@ std::optional<Finding> doubt_of_rim(const PointCloud& cloud, const KnownScene& k
                              percent(cells.found), percent(cells.seen_past), percent(cells.empty)));
 }
 
-/// The points on the floor and in the solid, m, in the support's frame.
+/// The points on the floor, in the solid and under a bin, m, in the support's frame.
 struct SupportContact {
   std::size_t looked_at = 0;
   std::vector<double> near_floor;  ///< heights over it, of what is on no tube
   std::vector<double> inside;      ///< how deep in floor or walls
+  std::vector<double> under;       ///< how deep below the inside of a bin, and not in its floor
+
+  double share_of(const std::vector<double>& points) const {
+    return static_cast<double>(points.size()) / static_cast<double>(std::max<std::size_t>(1, looked_at));
+  }
 };
 
 SupportContact contact_of(const PointCloud& cloud, const KnownScene& known, const Model& model) {
@@ -306,7 +308,8 @@ SupportContact contact_of(const PointCloud& cloud, const KnownScene& known, cons
   const double reach = std::max(0.02, known.kinds.front().radius);
   SupportContact contact;
   constexpr std::size_t wanted = 5'000;
-  for (std::size_t i = 0; i < cloud.points.size(); i += stride_for(cloud, wanted)) {
+  const std::size_t stride = sampling_stride(cloud.points.size(), wanted);
+  for (std::size_t i = 0; i < cloud.points.size(); i += stride) {
     if (!cloud.points[i].allFinite()) continue;
     const Vector3d point = to_support * cloud.points[i].cast<double>();
     const bool is_over_floor =
@@ -319,6 +322,8 @@ SupportContact contact_of(const PointCloud& cloud, const KnownScene& known, cons
       const double depth = std::min((point - part.min()).minCoeff(), (part.max() - point).minCoeff());
       if (depth > 0) contact.inside.push_back(depth);
     }
+    if (is_over_floor && support.shape == Support::Shape::bin && point.z() < parts.front().min().z() - reach)
+      contact.under.push_back(-point.z());
   }
   return contact;
 }
@@ -349,15 +354,15 @@ std::optional<Finding> doubt_of_floor(const SupportContact& contact, const Suppo
                              1000 * std::abs(*height), *height > 0 ? "above" : "below"));
 }
 
+constexpr double out_of_place_max = 0.02;  // share of the points
+
 std::optional<Finding> doubt_of_solid(const SupportContact& contact, const Support& support) {
   constexpr double tolerance = 0.005;
   std::vector<double> deep;
   std::ranges::copy_if(contact.inside, std::back_inserter(deep),
                        [&](double depth) { return depth > tolerance + support.margin; });
-  constexpr double most = 0.02;
-  const double share =
-      static_cast<double>(deep.size()) / static_cast<double>(std::max<std::size_t>(1, contact.looked_at));
-  if (share <= most) return std::nullopt;
+  const double share = contact.share_of(deep);
+  if (share <= out_of_place_max) return std::nullopt;
   return warning(
       name_of(support.shape).c_str(),
       fmt::format("{:.0f} % of the points are inside the {}, {:.0f} mm deep in the median: the support may "
@@ -365,6 +370,17 @@ std::optional<Finding> doubt_of_solid(const SupportContact& contact, const Suppo
                   100 * share,
                   support.shape == Support::Shape::bin ? "bin's floor and walls" : "plane's solid side",
                   1000 * median(std::move(deep))));
+}
+
+// The floor hides what is under it.
+std::optional<Finding> doubt_of_depth(const SupportContact& contact) {
+  const double share = contact.share_of(contact.under);
+  if (share <= out_of_place_max) return std::nullopt;
+  return warning("bin",
+                 fmt::format("{:.0f} % of the points are under the bin's floor, {:.3g} m deep in the median, "
+                             "where the camera cannot have seen them: do they stand for nothing measured? "
+                             "They are null",
+                             100 * share, median(contact.under)));
 }
 
 }  // namespace
@@ -385,6 +401,7 @@ std::vector<Finding> doubts_of_support(const PointCloud& cloud, const KnownScene
   const SupportContact contact = contact_of(cloud, known, model);
   add(doubt_of_floor(contact, support));
   add(doubt_of_solid(contact, support));
+  add(doubt_of_depth(contact));
   // A cloud of the tubes alone has no rim.
   constexpr std::size_t share = 50;
   const bool shows_support = share * model.counts.on_support > model.counts.all - model.counts.invalid;

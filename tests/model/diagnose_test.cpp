@@ -107,6 +107,17 @@ TEST(Diagnose, SaysThatTheCameraCannotSeePlacesThatStandForNothing) {
   EXPECT_EQ(model.tubes.size(), 4U);
 }
 
+TEST(Diagnose, SaysThatTheFloorHidesWhatIsUnderIt) {
+  View view = right_view();
+  for (std::size_t i = 0; i < view.cloud.points.size(); i += 8) view.cloud.points[i] = {0, 0, -10};
+  const Model model = model_of(view);
+  EXPECT_EQ(
+      text_of(model.findings),
+      "warning bin: 13 % of the points are under the bin's floor, 10 m deep in the median, where the camera "
+      "cannot have seen them: do they stand for nothing measured? They are null\n");
+  EXPECT_EQ(model.tubes.size(), 4U);
+}
+
 TEST(Diagnose, CountsEveryPointOnce) {
   View view = right_view();
   std::vector<Vector3f>& points = view.cloud.points;
