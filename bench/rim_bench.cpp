@@ -150,6 +150,7 @@ Eigen::Isometry3d turned(double angle_deg, const Eigen::Vector3d& axis) {
 
 bool register_all() {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d slope = Eigen::Vector3d(1, 2, 0).normalized();
   const std::vector<std::pair<std::string, Change>> rows = {
@@ -160,7 +161,9 @@ bool register_all() {
       {"10mm_along_both", beside(moved(0.01, 0.01))},
       {"1deg_about_z", beside(turned(1, z))},
       {"2deg_about_z", beside(turned(2, z))},
+      {"1deg_about_x", beside(turned(1, x))},
       {"2deg_about_x", beside(turned(2, x))},
+      {"2deg_about_y", beside(turned(2, y))},
       {"on_a_slope_of_10deg", on_slope(turned(10, slope))},
       {"not_a_box", not_a_box(moved(0, 0))},
       {"not_a_box_5mm_along_x", not_a_box(moved(0.005, 0))},

@@ -15,6 +15,7 @@ namespace {
 
 using testing::ContainsRegex;
 using testing::HasSubstr;
+using testing::Not;
 
 /// A heap in a bin, as a camera sees it, and where the scene has the bin.
 class RimCheck : public testing::Test {
@@ -62,6 +63,35 @@ TEST_F(RimCheck, SaysByHowMuchABinIsTurned) {
   EXPECT_THAT(said(), HasSubstr("turned by about 2.0° about z:"));
   tell(0.008, 0, 2);
   EXPECT_THAT(said(), HasSubstr("about 8 mm further in -x and turned by about -2.0° about z:"));
+}
+
+TEST_F(RimCheck, SaysByHowMuchABinLeans) {
+  const auto tell_lean = [&](double about_x_deg, double about_y_deg) {
+    support_.pose = Eigen::AngleAxisd(-about_x_deg * degree, Eigen::Vector3d::UnitX()) *
+                    Eigen::AngleAxisd(-about_y_deg * degree, Eigen::Vector3d::UnitY());
+  };
+  for (const double tilt_deg : {0.0, 30.0, 45.0}) {
+    scan_from(tilt_deg);
+    tell_lean(2, 0);
+    EXPECT_THAT(said(), ContainsRegex("leaning by about (1.9|2.[01])° about x:")) << tilt_deg;
+    tell_lean(-2, 0);
+    EXPECT_THAT(said(), ContainsRegex("leaning by about -(1.9|2.[01])° about x:")) << tilt_deg;
+    tell_lean(0, 1.5);
+    EXPECT_THAT(said(), ContainsRegex("leaning by about 1.[456]° about y:")) << tilt_deg;
+    tell_lean(0.3, -0.3);
+    EXPECT_THAT(said(), Not(HasSubstr("leaning"))) << tilt_deg;
+  }
+}
+
+TEST_F(RimCheck, DoesNotTakeTubesOverTheRimForALean) {
+  const double rim = support_.bin.height;
+  for (int i = 0; i < 3'000; ++i) {
+    const auto along = static_cast<float>(i % 100) * 0.001F;
+    const auto across = static_cast<float>(i / 100) * 0.002F - 0.03F;
+    cloud_.points.emplace_back(along, static_cast<float>(support_.bin.width) / 2 + across,
+                               static_cast<float>(rim) + 0.02F);
+  }
+  EXPECT_EQ(said(), "");
 }
 
 TEST_F(RimCheck, IsNotTroubledByNoise) {
