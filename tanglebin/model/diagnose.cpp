@@ -114,9 +114,11 @@ private:
     return share * unseen() > valid();
   }
   bool is_most_unexplained() const { return 2 * counts_.unexplained > kept(); }
+  // Or too far from the support, such as beside a bin that is told turned by 90°.
+  bool is_most_not_on_tubes() const { return counts_.unexplained + counts_.cropped > counts_.on_tubes; }
 
   void look_for_points_in_scene() {
-    if (!are_most_missed() && !are_some_unseen() && !is_most_unexplained() && !model_.tubes.empty()) return;
+    if (!are_most_missed() && !are_some_unseen() && !is_most_not_on_tubes() && !model_.tubes.empty()) return;
     constexpr std::size_t points_for_remedy = 150;
     const std::optional<Remedy> remedy = remedy_for(some_points(points_for_remedy), known_);
     if (remedy) {

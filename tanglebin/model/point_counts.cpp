@@ -40,7 +40,10 @@ private:
 class Sorter {
 public:
   Sorter(const KnownScene& known, const FilterSettings& settings)
-      : view_(known.camera),
+      : support_(known.support),
+        view_(known.camera),
+        outer_half_(known.support.bin.length / 2 + known.support.bin.wall + known.support.margin,
+                    known.support.bin.width / 2 + known.support.bin.wall + known.support.margin),
         around_(crop_box(known.support, settings.overhang)),
         parts_(solid_parts(known.support)),
         near_(std::ranges::min(known.kinds, {}, &TubeKind::radius).radius / 2),
@@ -56,17 +59,25 @@ public:
     if (label == bin_label) return counts.on_support;
     if (point.z() < lowest_) return counts.below_support;
     if (!around_.contains(point)) return counts.cropped;
-    return is_near_support(point) ? counts.near_support : counts.unexplained;
+    if (is_near_support(point)) return counts.near_support;
+    return is_beside_bin(point) ? counts.cropped : counts.unexplained;
   }
 
 private:
+  // Beyond its walls.
+  bool is_beside_bin(const Eigen::Vector3d& point) const {
+    return support_.shape == Support::Shape::bin && (point.head<2>().array().abs() > outer_half_).any();
+  }
+
   bool is_near_support(const Eigen::Vector3d& point) const {
     return std::ranges::any_of(parts_, [&](const Eigen::AlignedBox3d& part) {
       return part.squaredExteriorDistance(point) < near_ * near_;
     });
   }
 
+  const Support& support_;
   View view_;
+  Eigen::Array2d outer_half_;  // m, of a bin with its walls
   Eigen::AlignedBox3d around_;
   std::vector<Eigen::AlignedBox3d> parts_;
   double near_;    // m

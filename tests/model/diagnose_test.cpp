@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <string>
@@ -157,6 +158,27 @@ TEST(Diagnose, IsNotTroubledByTheTableThatTheBinStandsOn) {
   const Model model = model_of(view);
   EXPECT_GT(model.counts.below_support, before.below_support + 5'000) << "in the image";
   EXPECT_EQ(model.counts.unexplained, before.unexplained);
+  EXPECT_EQ(text_of(model.findings), "");
+}
+
+// Such as a rack: a rail beside the bin is no tube, and nobody has to explain it.
+TEST(Diagnose, IsNotTroubledByWhatStandsBesideTheBin) {
+  View view = right_view();
+  const Bin& bin = view.scene.support.bin;
+  const auto radius = static_cast<float>(view.scene.kinds.front().radius);
+  const Model before = model_of(view);
+  constexpr int points = 3'000;
+  for (int i = 0; i < points; ++i) {
+    const float along = static_cast<float>(i % 150) * 0.002F - 0.15F;
+    const float around = (static_cast<float>(i / 150) + 0.5F) / (points / 150) * 3.14F;
+    view.cloud.points.emplace_back(static_cast<float>(bin.length) / 2 + 0.1F + radius * std::cos(around),
+                                   along, 0.1F + radius * std::sin(around));
+  }
+  view.cloud.width = view.cloud.points.size();
+  const Model model = model_of(view);
+  EXPECT_EQ(model.tubes.size(), before.tubes.size());
+  EXPECT_EQ(model.counts.unexplained, before.counts.unexplained);
+  EXPECT_EQ(model.counts.cropped, before.counts.cropped + points);
   EXPECT_EQ(text_of(model.findings), "");
 }
 
