@@ -154,6 +154,27 @@ KnownScene with_found_lengths(KnownScene known, const std::vector<AxisSteps>& ki
   return known;
 }
 
+bool is_over(const Bin& bin, const Fragment& fragment) {
+  const Eigen::Array2d half(bin.length / 2, bin.width / 2);
+  return std::ranges::any_of(fragment.nodes, [&](const Eigen::Vector3d& node) {
+    return (node.head<2>().array().abs() < half).all();
+  });
+}
+
+// Takes the fragments of all tubes out that are not over the bin's floor anywhere: what stands beside it,
+// such as a rack, is no tube in it. A tube that hangs over the rim stays whole. Returns true if there were
+// any.
+bool drop_beside(const Bin& bin, AxisSteps& steps) {
+  std::vector<bool> is_beside(steps.fragments.size());
+  for (const std::vector<std::size_t>& members : steps.tubes) {
+    const bool is_in_bin = std::ranges::any_of(
+        members, [&](std::size_t member) { return is_over(bin, steps.fragments[member]); });
+    for (const std::size_t member : members) is_beside[member] = !is_in_bin;
+  }
+  std::size_t number = 0;
+  return std::erase_if(steps.fragments, [&](const Fragment&) { return is_beside[number++]; }) > 0;
+}
+
 // The steps from votes to labels. The grid of voxels that the votes are sorted into is moved by `shift`.
 AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& scan,
                       const AxisSettings& settings, double shift, const std::function<void()>& at_step) {
@@ -173,13 +194,18 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   clock.end_step("fragment", total(result.kinds, [](const auto& steps) { return steps.fragments.size(); }),
                  "fragments");
 
-  for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
+  const auto join = [&](AxisSteps& steps, const TubeKind& known_kind) {
     look_beyond_ends(steps.fragments, known_kind.radius, seen);
     steps.kind = with_length(known_kind, steps.fragments, seen, settings.link);
     steps.links = find_links(steps.fragments, seen, steps.kind, settings.link,
                              space_of_other_kinds(result.kinds, known, steps));
     steps.chosen = choose_links(steps.fragments, steps.links, steps.kind, settings.link, seen).links;
     steps.tubes = linked_fragments(steps.fragments.size(), steps.links, steps.chosen);
+  };
+  for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
+    join(steps, known_kind);
+    if (known.support.shape != Support::Shape::bin) return;
+    while (drop_beside(known.support.bin, steps)) join(steps, known_kind);
   });
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");
 

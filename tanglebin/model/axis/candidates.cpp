@@ -46,21 +46,6 @@ bool looks_like_a_tube(const TubeSurface& surface, const Support& support) {
   return *surface.roundness >= least && *surface.roundness <= most;
 }
 
-// Some of its centre line is over the floor; the rest may hang over the rim. What stands beside a bin, such
-// as a rack, is nothing that lies in it.
-bool is_over(const Bin& bin, const Tube& tube) {
-  const Eigen::Array2d half(bin.length / 2, bin.width / 2);
-  return std::ranges::any_of(capsules(tube), [&](const Capsule& capsule) {
-    const Eigen::Vector3d way = capsule.b - capsule.a;
-    const int steps = std::max(1, static_cast<int>(std::ceil(way.norm() / capsule.radius)));
-    for (int i = 0; i <= steps; ++i) {
-      const Eigen::Vector3d place = capsule.a + i * way / steps;
-      if ((place.head<2>().array().abs() < half).all()) return true;
-    }
-    return false;
-  });
-}
-
 // m, of the tube that the point in the middle is on: by how much points scatter about a tube here.
 double usual_scatter(const std::vector<std::vector<TubeCandidate>>& of_kinds) {
   std::vector<std::pair<double, std::size_t>> scatters;
@@ -148,11 +133,7 @@ void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, con
   drop_unless(of_kinds, [](const TubeCandidate& candidate) {
     return !candidate.tube.flat_ends || total_length(candidate.tube) > candidate.tube.radius;
   });
-  if (support.shape == Support::Shape::bin) {
-    drop_unless(of_kinds,
-                [&](const TubeCandidate& candidate) { return is_over(support.bin, candidate.tube); });
-    return;
-  }
+  if (support.shape == Support::Shape::bin) return;
   drop_unless(of_kinds,
               [&](const TubeCandidate& candidate) { return looks_like_a_tube(*candidate.surface, support); });
   const double usual = usual_scatter(of_kinds);

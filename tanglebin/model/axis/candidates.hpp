@@ -36,10 +36,9 @@ std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vec
                                           const TubeKind& kind, const KnownScene& known,
                                           const AxisSettings& settings);
 
-/// In a known bin there are tubes; those that are not over its floor at all are no tubes of the bin.
-/// Elsewhere there may also be the rim of a bin, a box, or a pipe of quite another radius; and without a
-/// support walls, so that what shows too little to tell is no tube there. A ball is none either: an upright
-/// tube shows one if its ends are round.
+/// In a known bin there are tubes. Elsewhere there may also be the rim of a bin, a box, or a pipe of quite
+/// another radius; and without a support walls, so that what shows too little to tell is no tube there. A
+/// ball is none either: an upright tube shows one if its ends are round.
 void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, const Support& support);
 
 /// Takes the tubes out that clearly show a radius, all along or in one of their fragments, that none of the

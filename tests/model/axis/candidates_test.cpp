@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "tanglebin/base/constants.hpp"
 #include "tests/model/scene/scanned.hpp"
 
 namespace tanglebin {
@@ -28,8 +27,7 @@ std::vector<double> scatters_left(const std::vector<double>& scatters) {
   for (const double scatter : scatters) of_kinds[0].push_back(that_scatters_by(scatter));
   drop_what_is_no_tube(of_kinds, {.shape = Support::Shape::nothing});
   std::vector<double> left;
-  for (const TubeCandidate& candidate : of_kinds[0])
-    left.push_back(candidate.surface->scatter / test::radius);
+  for (const TubeCandidate& candidate : of_kinds[0]) left.push_back(candidate.surface->scatter / test::radius);
   return left;
 }
 
@@ -45,26 +43,6 @@ TEST(Candidates, AreNoTubeIfTheyScatterMuchMoreThanTheOthers) {
 TEST(Candidates, MayScatterALittleHoweverSmoothTheOthersAre) {
   EXPECT_EQ(scatters_left({0, 0, 0, 0.016}).size(), 4U);
   EXPECT_EQ(scatters_left({0, 0, 0, 0.05}).size(), 3U);
-}
-
-// How many are left of a straight tube across a bin of 0.55 x 0.37 m, at this y (m) and turned by so much
-// about z.
-std::size_t left_in_bin(double y, double turn_deg) {
-  TubeCandidate candidate = that_scatters_by(0);
-  const Eigen::AngleAxisd turn(turn_deg * degree, Eigen::Vector3d::UnitZ());
-  for (Node& node : candidate.tube.nodes) node.position = turn * node.position + Eigen::Vector3d(0, y, 0);
-  std::vector<std::vector<TubeCandidate>> of_kinds(1);
-  of_kinds[0].push_back(candidate);
-  drop_what_is_no_tube(of_kinds, {.shape = Support::Shape::bin});
-  return of_kinds[0].size();
-}
-
-TEST(Candidates, AreNoTubesOfABinThatTheyLieBeside) {
-  EXPECT_EQ(left_in_bin(0, 0), 1U);
-  EXPECT_EQ(left_in_bin(0.18, 0), 1U);
-  EXPECT_EQ(left_in_bin(0.19, 0), 0U) << "on the wall, or its rim";
-  EXPECT_EQ(left_in_bin(-0.3, 0), 0U);
-  EXPECT_EQ(left_in_bin(-0.3, 90), 1U) << "over the rim";
 }
 
 // The radii, in known ones, of the tubes that are taken out as foreign from tubes that show these.
