@@ -100,8 +100,8 @@ inline std::vector<Mistake> mistakes() {
          axes(x, -y, -z)(view);
        },
        "frame", error, "(x, −y, −z)"},
-      {"pose inverted", [](View& view) { view.scene.camera.pose = view.scene.camera.pose.inverse(); },
-       "camera", warning, "is its pose right?"},
+      {"pose inverted", [](View& view) { view.scene.camera.pose = view.scene.camera.pose.inverse(); }, "pose",
+       error, "the inverse of the camera's pose"},
       {"the camera's position in millimetres",
        [](View& view) { view.scene.camera.pose.translation() *= 1000; }, "camera", warning,
        "the camera's pose in another unit"},
