@@ -27,7 +27,8 @@ std::vector<double> scatters_left(const std::vector<double>& scatters) {
   for (const double scatter : scatters) of_kinds[0].push_back(that_scatters_by(scatter));
   drop_what_is_no_tube(of_kinds, {.shape = Support::Shape::nothing});
   std::vector<double> left;
-  for (const TubeCandidate& candidate : of_kinds[0]) left.push_back(candidate.surface->scatter / test::radius);
+  for (const TubeCandidate& candidate : of_kinds[0])
+    left.push_back(candidate.surface->scatter / test::radius);
   return left;
 }
 
