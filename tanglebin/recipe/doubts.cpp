@@ -75,6 +75,8 @@ void doubt_room(const Recipe& recipe, const SetRecipe& set, Doubts& found) {
   const Bin& bin = recipe.bin;
   const int tubes = std::ranges::max(numbers_of_tubes(set));
   const std::vector<TubeSpec>& specs = tubes_of(set);
+  const auto thickest = std::ranges::max_element(specs, {}, &TubeSpec::radius);
+  if (bin.height < 2 * thickest->radius) return;  // tubes lie on a plate, not in it
   double sum = 0;
   for (const TubeSpec& spec : specs) sum += volume(spec);
   const double each = sum / static_cast<double>(specs.size());

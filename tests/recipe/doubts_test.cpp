@@ -57,5 +57,9 @@ TEST(Doubts, AboutMoreTubesThanTheBinHolds) {
               ElementsAre("set A: 20 tubes have 45 % of the bin's volume; a heap fills up to about 33 %"));
 }
 
+TEST(Doubts, NotAboutManyTubesOnAPlate) {
+  EXPECT_THAT(doubts_about("[bin]\nwidth = 0.2\nheight = 0.001\n"), IsEmpty());
+}
+
 }  // namespace
 }  // namespace tanglebin
