@@ -145,8 +145,7 @@ private:
   double middle_;  // m, from the bin's middle to the rim's
   double half_;    // m, of the side's length
   double wall_;
-  std::array<std::vector<double>, places>
-      level_;  // m, outwards of the rim's middle, of what is level with it
+  std::array<std::vector<double>, places> level_;    // of what is level with the rim: m, outwards
   std::array<std::vector<double>, places> heights_;  // m, over the rim's
 };
 
@@ -166,7 +165,8 @@ SeenRim rim_in(const PointCloud& cloud, const Support& support) {
   const Eigen::RowVector3f up = to_support.linear().row(2);
   const float offset = to_support.translation().z() - static_cast<float>(support.bin.height);
   const double level_max = rim_level + support.margin;
-  const double height_max = std::max(rim_reach, level_max);
+  // Where walls are low, what lies in the bin is soon as high as the rim.
+  const double height_max = std::max(std::min(rim_reach, support.bin.height / 2), level_max);
   for (const Vector3f& point : cloud.points) {
     const double height = up.dot(point) + offset;
     if (!(std::abs(height) < height_max)) continue;
