@@ -154,21 +154,21 @@ KnownScene with_found_lengths(KnownScene known, const std::vector<AxisSteps>& ki
   return known;
 }
 
-bool is_over(const Bin& bin, const Fragment& fragment) {
+bool is_over_or_above(const Bin& bin, const Fragment& fragment) {
   const Eigen::Array2d half(bin.length / 2, bin.width / 2);
   return std::ranges::any_of(fragment.nodes, [&](const Eigen::Vector3d& node) {
-    return (node.head<2>().array().abs() < half).all();
+    return node.z() > bin.height || (node.head<2>().array().abs() < half).all();
   });
 }
 
-// Takes the fragments of all tubes out that are not over the bin's floor anywhere: what stands beside it,
-// such as a rack, is no tube in it. A tube that hangs over the rim stays whole. Returns true if there were
-// any.
+// Takes the fragments of all tubes out that are neither over the bin's floor nor above its rim anywhere: what
+// stands beside it, such as a rack, is no tube in it. A tube that hangs over the rim stays whole. Returns
+// true if there were any.
 bool drop_beside(const Bin& bin, AxisSteps& steps) {
   std::vector<bool> is_beside(steps.fragments.size());
   for (const std::vector<std::size_t>& members : steps.tubes) {
     const bool is_in_bin = std::ranges::any_of(
-        members, [&](std::size_t member) { return is_over(bin, steps.fragments[member]); });
+        members, [&](std::size_t member) { return is_over_or_above(bin, steps.fragments[member]); });
     for (const std::size_t member : members) is_beside[member] = !is_in_bin;
   }
   std::size_t number = 0;
