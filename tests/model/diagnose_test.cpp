@@ -45,6 +45,13 @@ Model model_of(const View& view) {
   return model_tubes(cloud, view.scene);
 }
 
+// Of a scan in which one point of eight is at this place.
+Model model_with_every_eighth_at(const Vector3f& place) {
+  View view = right_view();
+  for (std::size_t i = 0; i < view.cloud.points.size(); i += 8) view.cloud.points[i] = place;
+  return model_of(view);
+}
+
 TEST(Diagnose, SaysNothingOfASceneThatFits) {
   const Model model = model_of(right_view());
   EXPECT_EQ(model.tubes.size(), 4U);
@@ -98,9 +105,7 @@ TEST(Diagnose, RealColoursAndTheColoursOfLabelsAreNoMistake) {
 // Some drivers write a place far away where nothing was measured. A hundred times smaller, such a scan would
 // be a spot on the floor, and wider than a tube only because of these.
 TEST(Diagnose, SaysThatTheCameraCannotSeePlacesThatStandForNothing) {
-  View view = right_view();
-  for (std::size_t i = 0; i < view.cloud.points.size(); i += 8) view.cloud.points[i] = {0, 0, 10};
-  const Model model = model_of(view);
+  const Model model = model_with_every_eighth_at({0, 0, 10});
   EXPECT_EQ(
       text_of(model.findings),
       "warning camera: 13 % of the points are behind the camera, where it cannot have seen them: they are "
@@ -109,9 +114,7 @@ TEST(Diagnose, SaysThatTheCameraCannotSeePlacesThatStandForNothing) {
 }
 
 TEST(Diagnose, SaysThatTheFloorHidesWhatIsUnderIt) {
-  View view = right_view();
-  for (std::size_t i = 0; i < view.cloud.points.size(); i += 8) view.cloud.points[i] = {0, 0, -10};
-  const Model model = model_of(view);
+  const Model model = model_with_every_eighth_at({0, 0, -10});
   EXPECT_EQ(
       text_of(model.findings),
       "warning bin: 13 % of the points are under the bin's floor, 10 m deep in the median, where the camera "
