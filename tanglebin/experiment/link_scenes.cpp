@@ -95,7 +95,7 @@ std::vector<LinkScene> link_scenes(const Dataset& dataset, const SeenCase& seen)
   const CaseData data = read_seen_case(dataset, seen);
   const KnownScene known = known_scene(recipe_seen(dataset, seen), seen.scene);
   AxisModel found = model_by_axes(data.cloud, known, 1, 0, settings_to_learn_with());
-  RangeImage seen_image(data.cloud.points, known.camera, solid_parts(known.support));
+  RangeImage seen_image(data.cloud.points, known.camera, surely_solid_parts(known.support));
   seen_image.keep_measured_rows();  // learning holds hundreds of them
   std::vector<LinkScene> scenes;
   for (std::size_t i = 0; i < found.kinds.size(); ++i) {

@@ -49,6 +49,10 @@ std::array<Eigen::AlignedBox3d, 5> boxes(const Bin& bin) {
           Box(Vector3d(-x, y, 0), Vector3d(x, y_out, bin.height))};
 }
 
+bool is_over_floor(const Bin& bin, const Eigen::Vector3d& point, double border) {
+  return std::abs(point.x()) < bin.length / 2 - border && std::abs(point.y()) < bin.width / 2 - border;
+}
+
 void validate(const Bin& bin) {
   constexpr double narrowest = 0.02;
   validate_size("bin.length", bin.length, narrowest);

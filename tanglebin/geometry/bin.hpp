@@ -24,6 +24,10 @@ Bin bin_preset(std::string_view name);
 /// The floor, then the walls at −x, +x, −y, +y. They touch without overlapping; together they form the bin.
 std::array<Eigen::AlignedBox3d, 5> boxes(const Bin& bin);
 
+/// Whether a point, m, is between the walls at any height, by more than `border` (m) inside them. A negative
+/// border reaches beyond them.
+bool is_over_floor(const Bin& bin, const Eigen::Vector3d& point, double border = 0);
+
 /// Throws InputError naming the field under `bin` unless every number is finite and positive, length and
 /// width are at least 0.02 m, and no size is above 10 m.
 void validate(const Bin& bin);

@@ -47,6 +47,15 @@ std::vector<Eigen::AlignedBox3d> solid_parts(const Support& support) {
   return {};
 }
 
+std::vector<Eigen::AlignedBox3d> surely_solid_parts(const Support& support) {
+  Support widest = support;
+  widest.bin.length += 2 * support.margin;
+  widest.bin.width += 2 * support.margin;
+  std::vector<Eigen::AlignedBox3d> parts = solid_parts(widest);
+  for (Eigen::AlignedBox3d& part : parts) part.translate(Eigen::Vector3d(0, 0, -support.margin));
+  return parts;
+}
+
 void validate(const Support& support) {
   if (support.shape == Support::Shape::bin) validate(support.bin);
   if (!is_rigid(support.pose))

@@ -19,7 +19,7 @@ struct Support {
   Shape shape = Shape::bin;
   Bin bin{};                                               ///< sizes of a bin
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< support frame → world frame
-  double margin = 0;  ///< m, by which the real one may deviate from this shape: ribs, draft, tolerances
+  double margin = 0;  ///< m, by which the real one may deviate from this shape, either way: ribs, draft
 };
 
 /// "bin", "plane" or "nothing". shape_named() is the inverse; it throws InputError for any other name.
@@ -29,6 +29,10 @@ Support::Shape shape_named(const std::string& name);
 /// The solid parts, m, in the support's frame: boxes() of a bin, a slab of 20 mm without borders for a plane,
 /// none for nothing.
 std::vector<Eigen::AlignedBox3d> solid_parts(const Support& support);
+
+/// Those of the widest and deepest support within the margin: a place in them is solid wherever the real
+/// floor and walls are.
+std::vector<Eigen::AlignedBox3d> surely_solid_parts(const Support& support);
 
 /// Throws InputError naming the field under `support` unless a bin is valid as validate(Bin) has it, the pose
 /// is a rigid motion with finite numbers, and the margin is finite, not negative and at most 0.1 m.

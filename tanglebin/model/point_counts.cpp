@@ -42,8 +42,6 @@ public:
   Sorter(const KnownScene& known, const FilterSettings& settings)
       : support_(known.support),
         view_(known.camera),
-        outer_half_(known.support.bin.length / 2 + known.support.bin.wall + known.support.margin,
-                    known.support.bin.width / 2 + known.support.bin.wall + known.support.margin),
         around_(crop_box(known.support, settings.overhang)),
         parts_(solid_parts(known.support)),
         near_(std::ranges::min(known.kinds, {}, &TubeKind::radius).radius / 2),
@@ -66,7 +64,8 @@ public:
 private:
   // Beyond its walls.
   bool is_beside_bin(const Eigen::Vector3d& point) const {
-    return support_.shape == Support::Shape::bin && (point.head<2>().array().abs() > outer_half_).any();
+    return support_.shape == Support::Shape::bin &&
+           !is_over_floor(support_.bin, point, -(support_.bin.wall + support_.margin));
   }
 
   bool is_near_support(const Eigen::Vector3d& point) const {
@@ -77,7 +76,6 @@ private:
 
   const Support& support_;
   View view_;
-  Eigen::Array2d outer_half_;  // m, of a bin with its walls
   Eigen::AlignedBox3d around_;
   std::vector<Eigen::AlignedBox3d> parts_;
   double near_;    // m

@@ -312,17 +312,16 @@ SupportContact contact_of(const PointCloud& cloud, const KnownScene& known, cons
   for (std::size_t i = 0; i < cloud.points.size(); i += stride) {
     if (!cloud.points[i].allFinite()) continue;
     const Vector3d point = to_support * cloud.points[i].cast<double>();
-    const bool is_over_floor =
-        support.shape == Support::Shape::plane || (2 * std::abs(point.x()) < support.bin.length - 2 * reach &&
-                                                   2 * std::abs(point.y()) < support.bin.width - 2 * reach);
+    const bool is_above_it =
+        support.shape == Support::Shape::plane || is_over_floor(support.bin, point, reach);
     ++contact.looked_at;
     const bool is_on_tube = model.labels[i] > bin_label;
-    if (is_over_floor && !is_on_tube && std::abs(point.z()) < reach) contact.near_floor.push_back(point.z());
+    if (is_above_it && !is_on_tube && std::abs(point.z()) < reach) contact.near_floor.push_back(point.z());
     for (const Eigen::AlignedBox3d& part : parts) {
       const double depth = std::min((point - part.min()).minCoeff(), (part.max() - point).minCoeff());
       if (depth > 0) contact.inside.push_back(depth);
     }
-    if (is_over_floor && support.shape == Support::Shape::bin && point.z() < parts.front().min().z() - reach)
+    if (is_above_it && support.shape == Support::Shape::bin && point.z() < parts.front().min().z() - reach)
       contact.under.push_back(-point.z());
   }
   return contact;

@@ -60,7 +60,7 @@ Located locate_with_any_wall(const PointCloud& cloud, Support bin, const Camera&
 }
 
 // Whether the floor is less even than rim and walls are.
-std::optional<std::string> doubt_of_floor(const std::vector<LocatedPart>& parts) {
+std::optional<std::string> doubt_of_floor(const std::vector<LocatedPart>& parts, double margin) {
   const auto floor = std::ranges::find(parts, "floor", &LocatedPart::name);
   if (floor == parts.end()) return std::nullopt;
   std::vector<double> noises;
@@ -72,15 +72,19 @@ std::optional<std::string> doubt_of_floor(const std::vector<LocatedPart>& parts)
   constexpr double times = 3;
   const double others = median(std::move(noises));
   if (floor->noise < std::max(uneven, times * others)) return std::nullopt;
+  constexpr double nearly = 0.8;  // a larger margin lets more of a floor count
+  const std::string remedy = margin < nearly * floor->noise
+                                 ? fmt::format("; give margin = {:.3f} in [support]", floor->noise + 0.0005)
+                                 : "";
   return fmt::format(
       "the floor is uneven by {:.1f} mm, rim and walls by {:.1f} mm: if it bulges or is dirty, the pose is "
-      "off by as much",
-      1000 * floor->noise, 1000 * others);
+      "off by as much{}",
+      1000 * floor->noise, 1000 * others, remedy);
 }
 
-std::vector<std::string> doubts_of(const Located& located, bool is_wall_unknown) {
+std::vector<std::string> doubts_of(const Located& located, double margin, bool is_wall_unknown) {
   std::vector<std::string> doubts;
-  if (const auto doubt = doubt_of_floor(located.parts)) doubts.push_back(*doubt);
+  if (const auto doubt = doubt_of_floor(located.parts, margin)) doubts.push_back(*doubt);
   if (is_wall_unknown && !located.is_wall_measured) {
     doubts.emplace_back(
         "how thick the walls are is not seen: give wall in [support], or the rim may be taken "
@@ -102,7 +106,7 @@ LocatedScene locate_support(const Scene& scene, const PointCloud& cloud) {
   Located located = is_wall_unknown ? locate_with_any_wall(resolved.cloud, support, camera)
                                     : locate(resolved.cloud, support, camera);
   LocatedScene result{scene, std::move(located), std::move(resolved.notes), {}};
-  result.doubts = doubts_of(result.located, is_wall_unknown);
+  result.doubts = doubts_of(result.located, support.margin, is_wall_unknown);
   result.scene.support = result.located.support;
   result.scene.wall_is_given = scene.wall_is_given || result.located.is_wall_measured;
   if (!result.scene.wall_is_given) result.scene.support->bin.wall = support.bin.wall;

@@ -65,6 +65,17 @@ TEST(Bin, BoxesFillTheShellOnceAndLeaveTheInsideFree) {
   EXPECT_NEAR(volume(bin), outside.volume() - inside.volume(), 1e-12);
 }
 
+TEST(Bin, TellsWhatIsOverItsFloorAtAnyHeightAndHowFarFromTheWalls) {
+  const Bin bin{.length = 0.4, .width = 0.2};
+  for (const double z : {-1.0, 0.0, 0.5}) {
+    EXPECT_TRUE(is_over_floor(bin, {0.19, -0.09, z}));
+    EXPECT_FALSE(is_over_floor(bin, {0.21, 0, z}));
+    EXPECT_FALSE(is_over_floor(bin, {0, -0.11, z}));
+    EXPECT_FALSE(is_over_floor(bin, {0.19, 0, z}, 0.02));
+    EXPECT_TRUE(is_over_floor(bin, {0.21, -0.11, z}, -0.02));
+  }
+}
+
 TEST(Bin, ValidationNamesTheFieldThatIsNotAPositiveNumber) {
   EXPECT_NO_THROW(validate(Bin{}));
   const auto rejected_field = [](double Bin::*member, double value) -> std::string {

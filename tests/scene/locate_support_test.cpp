@@ -62,6 +62,7 @@ TEST(LocateSupport, SaysThatAFloorBulgesAndHowLittleIsKnownThen) {
     bulge_floor(cell, height);
     const LocatedScene found = locate_support(cell.scene, cell.cloud);
     EXPECT_THAT(found.doubts, testing::ElementsAre(testing::HasSubstr("the floor is uneven by")));
+    EXPECT_THAT(found.doubts, testing::ElementsAre(testing::HasSubstr("; give margin = 0.00")));
     EXPECT_GT(found.located.position_sd.z(), height / 6);
     EXPECT_LT(std::abs(found.scene.support->pose.translation().z()), 2.5 * found.located.position_sd.z());
     EXPECT_NEAR(found.scene.support->bin.wall, 0.012, 0.0015);

@@ -154,22 +154,31 @@ KnownScene with_found_lengths(KnownScene known, const std::vector<AxisSteps>& ki
   return known;
 }
 
-bool is_over_or_above(const Bin& bin, const Fragment& fragment) {
-  const Eigen::Array2d half(bin.length / 2, bin.width / 2);
+// Whether a part of a tube that lies in the support, or on it, can be there: over a bin's floor, or above its
+// rim.
+bool is_in(const Support& support, const Fragment& fragment) {
+  if (support.shape != Support::Shape::bin) return true;
   return std::ranges::any_of(fragment.nodes, [&](const Eigen::Vector3d& node) {
-    return node.z() > bin.height || (node.head<2>().array().abs() < half).all();
+    return node.z() > support.bin.height || is_over_floor(support.bin, node);
   });
 }
 
-// Takes the fragments of all tubes out that are neither over the bin's floor nor above its rim anywhere: what
-// stands beside it, such as a rack, is no tube in it. A tube that hangs over the rim stays whole. Returns
-// true if there were any.
-bool drop_beside(const Bin& bin, AxisSteps& steps) {
+// What stands beside a bin, such as a rack, says nothing of its tubes.
+std::vector<Fragment> fragments_in(const Support& support, const std::vector<Fragment>& fragments) {
+  std::vector<Fragment> inside;
+  std::ranges::copy_if(fragments, std::back_inserter(inside),
+                       [&](const Fragment& fragment) { return is_in(support, fragment); });
+  return inside;
+}
+
+// Takes the fragments of all tubes out of which no part is in the support: they are no tubes in it. A tube
+// that hangs over the rim stays whole. Returns true if there were any.
+bool drop_beside(const Support& support, AxisSteps& steps) {
   std::vector<bool> is_beside(steps.fragments.size());
   for (const std::vector<std::size_t>& members : steps.tubes) {
-    const bool is_in_bin = std::ranges::any_of(
-        members, [&](std::size_t member) { return is_over_or_above(bin, steps.fragments[member]); });
-    for (const std::size_t member : members) is_beside[member] = !is_in_bin;
+    const bool is_inside = std::ranges::any_of(
+        members, [&](std::size_t member) { return is_in(support, steps.fragments[member]); });
+    for (const std::size_t member : members) is_beside[member] = !is_inside;
   }
   std::size_t number = 0;
   return std::erase_if(steps.fragments, [&](const Fragment&) { return is_beside[number++]; }) > 0;
@@ -194,18 +203,17 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   clock.end_step("fragment", total(result.kinds, [](const auto& steps) { return steps.fragments.size(); }),
                  "fragments");
 
-  const auto join = [&](AxisSteps& steps, const TubeKind& known_kind) {
-    look_beyond_ends(steps.fragments, known_kind.radius, seen);
-    steps.kind = with_length(known_kind, steps.fragments, seen, settings.link);
+  const auto join = [&](AxisSteps& steps) {
     steps.links = find_links(steps.fragments, seen, steps.kind, settings.link,
                              space_of_other_kinds(result.kinds, known, steps));
     steps.chosen = choose_links(steps.fragments, steps.links, steps.kind, settings.link, seen).links;
     steps.tubes = linked_fragments(steps.fragments.size(), steps.links, steps.chosen);
   };
   for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
-    join(steps, known_kind);
-    if (known.support.shape != Support::Shape::bin) return;
-    while (drop_beside(known.support.bin, steps)) join(steps, known_kind);
+    look_beyond_ends(steps.fragments, known_kind.radius, seen);
+    steps.kind = with_length(known_kind, fragments_in(known.support, steps.fragments), seen, settings.link);
+    join(steps);
+    while (drop_beside(known.support, steps)) join(steps);
   });
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");
 
@@ -284,7 +292,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   }
   clock.end_step("vote", number_of_votes(voting), "votes");
 
-  RangeImage seen({}, known.camera, solid_parts(known.support));
+  RangeImage seen({}, known.camera, surely_solid_parts(known.support));
   for_each_seen(cropped, voting.filtered, ratio, seed, [&](std::size_t i) { seen.add(cloud.points[i]); });
   const OtherSurfaces others = other_surfaces(voting, known.support, cloud.points.size());
   const auto model_with = [&](double shift) {

@@ -212,6 +212,20 @@ TEST(AxisMethod, FindsTubesThatLieLowerThanTheKnownFloorAllows) {
   for (const Tube& tube : found.model.tubes) EXPECT_NEAR(total_length(tube), 0.5, 0.01);
 }
 
+// A floor told 8 mm too high, in which the lower tube would be.
+TEST(AxisMethod, JoinsWhatLiesLowerThanTheKnownFloorIfThatMayBeOffByAsMuch) {
+  PointCloud cloud =
+      scanned({test::straight_tube(1, 0), test::chain(2, 0.0125, {{0.05, -0.15, 0.04}, {0.02, 0.15, 0.04}})});
+  for (Eigen::Vector3f& point : cloud.points) point.z() -= 0.008F;
+  KnownScene known = paper_scene();
+  known.kinds[0].segments = {{1, 2, 0.5}};
+  EXPECT_EQ(model_by_axes(cloud, known, 1, 1).model.tubes.size(), 1U);
+  known.support.margin = 0.008;
+  const AxisModel found = model_by_axes(cloud, known, 1, 1);
+  EXPECT_EQ(found.model.tubes.size(), 2U);
+  EXPECT_GT(micro_recall(cloud, found), 0.99);
+}
+
 // Three tubes in so much noise that their votes hardly hang together.
 TEST(AxisMethod, CutsVotesAgainWhereItIsNotSureAndKeepsWhatIsProbablyRight) {
   const auto probably_right = [](const Model& model) {
