@@ -16,6 +16,7 @@
 #include "tanglebin/model/axis/links/choose_links.hpp"
 #include "tanglebin/model/axis/links/join_odds.hpp"
 #include "tanglebin/model/axis/links/length.hpp"
+#include "tanglebin/model/axis/tries.hpp"
 #include "tanglebin/model/scene/range_image.hpp"
 #include "tanglebin/model/scene/step_clock.hpp"
 #include "tanglebin/model/scene/weigh.hpp"
@@ -245,22 +246,6 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   return result;
 }
 
-// How many points are expected to be on the right tube.
-double probably_right(const Model& model) {
-  double sum = 0;
-  for (const TubeEvidence& tube : model.evidence) sum += tube.confidence * static_cast<double>(tube.points);
-  return sum;
-}
-
-// Whether other cuts may do better. In a cloud of noise, they will not.
-bool is_in_doubt(const Model& model, double sure_min) {
-  constexpr double hopeless = 0.2;
-  double points = 0;
-  for (const TubeEvidence& tube : model.evidence) points += static_cast<double>(tube.points);
-  const double right = probably_right(model);
-  return right < sure_min * points && right >= hopeless * points;
-}
-
 void add_times(std::vector<Step>& steps, const std::vector<Step>& others) {
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i].seconds += others[i].seconds;
 }
@@ -298,15 +283,18 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   const auto model_with = [&](double shift) {
     return model_votes(voting, seen, {cloud, cropped, known, others}, settings, shift, at_step);
   };
-  AxisModel best = model_with(0);
+  std::vector<AxisModel> tries;
+  tries.push_back(model_with(0));
   for (const double shift : other_shifts) {
-    if (!is_in_doubt(best.model, settings.fragment.sure_min)) break;
-    AxisModel tried = model_with(shift);
-    if (probably_right(tried.model) > probably_right(best.model)) std::swap(best, tried);
-    add_times(best.model.steps, tried.model.steps);
+    if (!is_in_doubt(likeliest_of(tries).model, settings.fragment.sure_min)) break;
+    tries.push_back(model_with(shift));
+  }
+  AxisModel& best = likeliest_of(tries);
+  for (const AxisModel& tried : tries) {
+    if (&tried != &best) add_times(best.model.steps, tried.model.steps);
   }
   best.model.steps.insert(best.model.steps.begin(), steps.begin(), steps.end());
-  return best;
+  return std::move(best);
 }
 
 }  // namespace tanglebin

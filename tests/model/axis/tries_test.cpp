@@ -1,0 +1,66 @@
+#include "tanglebin/model/axis/tries.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace tanglebin {
+namespace {
+
+// Tubes of one kind, all on one tube of this confidence.
+AxisModel model_with(double length, double confidence, std::size_t points = 100) {
+  AxisModel result;
+  result.model.evidence = {{.joins = {}, .points = points, .confidence = confidence}};
+  result.kinds.emplace_back().kind = {.radius = 0.01, .segments = {{1, 2, length}}, .length_min = length};
+  return result;
+}
+
+double length_of_likeliest(std::vector<AxisModel> tries) {
+  return likeliest_of(tries).kinds[0].kind.length();
+}
+
+TEST(Tries, AreInDoubtWhereSomePointsAreProbablyWrongButNotNearlyAll) {
+  constexpr double sure_min = 0.95;
+  EXPECT_FALSE(is_in_doubt(model_with(0.5, 0.96).model, sure_min));
+  EXPECT_TRUE(is_in_doubt(model_with(0.5, 0.94).model, sure_min));
+  EXPECT_TRUE(is_in_doubt(model_with(0.5, 0.21).model, sure_min));
+  EXPECT_FALSE(is_in_doubt(model_with(0.5, 0.19).model, sure_min));
+  EXPECT_FALSE(is_in_doubt(Model{}, sure_min));
+}
+
+TEST(Tries, OfTheSameLengthAreJudgedByThePointsThatAreProbablyRight) {
+  std::vector<AxisModel> tries = {model_with(0.5, 0.9), model_with(0.5, 0.8, 200), model_with(0.5, 0.95)};
+  EXPECT_EQ(probably_right(tries[1].model), 160);
+  EXPECT_EQ(&likeliest_of(tries), &tries[1]);
+}
+
+TEST(Tries, WithALengthThatMostContradictDoNotCountHoweverSureTheyAre) {
+  EXPECT_EQ(length_of_likeliest({model_with(0.5, 0.8), model_with(0.7, 0.99), model_with(0.51, 0.7)}), 0.5);
+  EXPECT_EQ(length_of_likeliest(
+                {model_with(0.7, 0.99), model_with(0.49, 0.7), model_with(0.5, 0.8), model_with(0.6, 0.9)}),
+            0.5);
+}
+
+TEST(Tries, WithoutAMajorityOfLengthsAreAllJudged) {
+  EXPECT_EQ(length_of_likeliest({model_with(0.5, 0.8), model_with(0.7, 0.9)}), 0.7);
+  EXPECT_EQ(length_of_likeliest({model_with(0.5, 0.8), model_with(0.7, 0.9), model_with(0.6, 0.7)}), 0.7);
+}
+
+AxisModel model_without_a_length(double bound, double confidence) {
+  AxisModel result = model_with(bound, confidence);
+  result.kinds[0].kind.length_min = 0;
+  return result;
+}
+
+TEST(Tries, ThatDidNotFindTheLengthDoNotCountWhereMostDid) {
+  EXPECT_EQ(
+      length_of_likeliest({model_with(0.5, 0.8), model_with(0.5, 0.9), model_without_a_length(0.7, 0.99)}),
+      0.5);
+  EXPECT_EQ(length_of_likeliest(
+                {model_with(0.5, 0.8), model_without_a_length(0.6, 0.7), model_without_a_length(0.7, 0.99)}),
+            0.7);
+}
+
+}  // namespace
+}  // namespace tanglebin
