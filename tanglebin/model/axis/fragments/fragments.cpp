@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
@@ -143,6 +144,74 @@ void drop_specks(std::vector<Fragment>& fragments, double radius, double share_m
   });
 }
 
+// How far each node is along a fragment without branches, m.
+std::vector<double> ways_along(const Fragment& fragment) {
+  std::vector<double> ways{0};
+  for (std::size_t node = 1; node < fragment.nodes.size(); ++node)
+    ways.push_back(ways.back() + (fragment.nodes[node] - fragment.nodes[node - 1]).norm());
+  return ways;
+}
+
+// For each node, the points whose votes it is the nearest to.
+std::vector<std::vector<std::size_t>> points_of_nodes(const Fragment& fragment, const AxisVotes& votes) {
+  std::vector<std::vector<std::size_t>> of_nodes(fragment.nodes.size());
+  for (const std::size_t point : fragment.points) {
+    const Vector3d vote = votes.votes[point].cast<double>();
+    const auto nearest = std::ranges::min_element(
+        fragment.nodes, {}, [&](const Vector3d& node) { return (node - vote).squaredNorm(); });
+    of_nodes[static_cast<std::size_t>(nearest - fragment.nodes.begin())].push_back(point);
+  }
+  return of_nodes;
+}
+
+// The node with the fewest votes of those that leave no more than this length, m, on both sides. None if it
+// has about as many as others.
+std::optional<std::size_t> weak_node(const Fragment& fragment,
+                                     const std::vector<std::vector<std::size_t>>& points_of,
+                                     double length_max) {
+  constexpr double weak = 0.25;  // of the median
+  const std::vector<double> ways = ways_along(fragment);
+  std::vector<std::size_t> counts;
+  std::optional<std::size_t> weakest;
+  for (std::size_t node = 0; node < ways.size(); ++node) {
+    counts.push_back(points_of[node].size());
+    if (ways[node] > length_max || ways.back() - ways[node] > length_max) continue;
+    if (!weakest || counts[node] < counts[*weakest]) weakest = node;
+  }
+  if (!weakest) return std::nullopt;
+  const double least = weak * static_cast<double>(median(counts));
+  return static_cast<double>(counts[*weakest]) < least ? weakest : std::nullopt;
+}
+
+// The part with the nodes from `first` to before `end`, of a fragment without branches.
+Fragment part_of(const Fragment& fragment, const std::vector<std::vector<std::size_t>>& points_of,
+                 std::size_t first, std::size_t end) {
+  Fragment part{.points = {}, .nodes = {}, .parents = {}, .ends = {}, .length = 0};
+  for (std::size_t node = first; node < end; ++node) {
+    part.parents.push_back(node == first ? 0 : node - first - 1);
+    part.nodes.push_back(fragment.nodes[node]);
+    part.points.insert(part.points.end(), points_of[node].begin(), points_of[node].end());
+  }
+  std::ranges::sort(part.points);
+  return part;
+}
+
+// Two parts no longer than this, m; none if there is no weak place between them.
+std::vector<Fragment> cut_in_two(const Fragment& fragment, const AxisVotes& votes, double radius,
+                                 double length_max, const FragmentSettings& settings) {
+  const std::vector<std::vector<std::size_t>> points_of = points_of_nodes(fragment, votes);
+  const std::optional<std::size_t> cut = weak_node(fragment, points_of, length_max);
+  if (!cut) return {};
+  std::vector<Fragment> parts = {part_of(fragment, points_of, 0, *cut),
+                                 part_of(fragment, points_of, *cut + 1, fragment.nodes.size())};
+  for (Fragment& part : parts) {
+    if (part.points.size() < static_cast<std::size_t>(settings.points_min)) return {};
+    part.ends = ends_of(part, votes, radius, settings);
+    part.length = length_of(part);
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::size_t number_of_points(const std::vector<Fragment>& fragments,
@@ -183,6 +252,19 @@ std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool
   }
   drop_specks(fragments, radius, settings.speck_max);
   return fragments;
+}
+
+std::vector<Fragment> cut_too_long(std::vector<Fragment> fragments, const AxisVotes& votes, double radius,
+                                   double length_max, const FragmentSettings& settings) {
+  std::vector<Fragment> result;
+  for (Fragment& fragment : fragments) {
+    const bool is_too_long = fragment.ends.size() == 2 && fragment.length > length_max;
+    std::vector<Fragment> parts;
+    if (is_too_long) parts = cut_in_two(fragment, votes, radius, length_max, settings);
+    if (parts.empty()) parts.push_back(std::move(fragment));
+    std::ranges::move(parts, std::back_inserter(result));
+  }
+  return result;
 }
 
 }  // namespace tanglebin

@@ -173,6 +173,45 @@ TEST(Fragments, AreThin) {
   EXPECT_THAT(fragments_of(votes), IsEmpty());
 }
 
+// Two tubes of 0.2 m in a line, whose ends touch. Hardly a patch fits on the joint.
+TEST(Fragments, LongerThanATubeAreCutWhereTwoTubesTouch) {
+  AxisVotes votes;
+  for (int i = 0; i < 2; ++i) {
+    add_axis(votes, {-0.2, 0, 0.05}, {-0.006, 0, 0.05});
+    add_axis(votes, {0.006, 0, 0.05}, {0.2, 0, 0.05});
+    add_axis(votes, {-0.1, 0.1, 0.05}, {0.1, 0.1, 0.05});
+  }
+  for (int i = 0; i < 10; ++i) {
+    votes.votes.emplace_back(i % 2 == 0 ? -0.002F : 0.002F, 0.0F, 0.05F);
+    votes.normals.emplace_back(0, 0.6F, 0.8F);
+  }
+  const std::vector<Fragment> found = fragments_of(votes);
+  ASSERT_THAT(found, SizeIs(2));
+  const auto cut_at = [&](double length_max) { return cut_too_long(found, votes, radius, length_max, {}); };
+  const std::vector<Fragment> cut = cut_at(0.206);
+  ASSERT_THAT(cut, SizeIs(3));
+  std::size_t points = 0;
+  for (const Fragment& fragment : cut) {
+    EXPECT_NEAR(fragment.length, 0.195, 0.01);
+    ASSERT_THAT(fragment.ends, SizeIs(2));
+    for (const FragmentEnd& end : fragment.ends) {
+      EXPECT_NEAR(std::abs(end.outward.x()), 1, 0.01);
+      EXPECT_LT((end.position - fragment.nodes[end.node]).norm(), 0.4 * radius);
+    }
+    points += fragment.points.size();
+  }
+  EXPECT_GE(points, votes.votes.size() - 10) << "only the joint is left out";
+  EXPECT_THAT(cut_at(0.19), SizeIs(2)) << "both parts would be too long";
+  EXPECT_THAT(cut_at(0.41), SizeIs(2)) << "it is a tube";
+}
+
+TEST(Fragments, LongerThanATubeStayWholeWithoutAWeakPlace) {
+  AxisVotes votes;
+  add_axis(votes, {-0.2, 0, 0.05}, {0.2, 0, 0.05});
+  const std::vector<Fragment> found = fragments_of(votes);
+  EXPECT_THAT(cut_too_long(found, votes, radius, 0.3, {}), SizeIs(1));
+}
+
 TEST(Fragments, OfAHandfulOfVotesAreNone) {
   AxisVotes votes;
   for (int i = 0; i < FragmentSettings{}.points_min - 1; ++i) {
