@@ -37,10 +37,10 @@ double points_on_a_radius(const std::vector<Fragment>& fragments, double radius)
 std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
                                      const FragmentSettings& settings, double shift = 0);
 
-/// Cuts fragments without branches that are longer than `length_max` (m), so that neither part has to be: two
-/// tubes whose ends touch. Only where next to no votes are; these points are left out. Without such a place,
-/// the fragment stays as it is: the length may be wrong.
-std::vector<Fragment> cut_too_long(std::vector<Fragment> fragments, const AxisVotes& votes, double radius,
-                                   double length_max, const FragmentSettings& settings);
+/// Cuts fragments without branches that are much longer than the tubes, `length` (m), so that neither part is
+/// longer: two tubes whose ends touch. Only where next to no votes are; these points are left out. Without
+/// such a place, the fragment stays as it is: the length may be wrong. Returns whether it cut any.
+bool cut_too_long(std::vector<Fragment>& fragments, const AxisVotes& votes, double radius, double length,
+                  const FragmentSettings& settings);
 
 }  // namespace tanglebin

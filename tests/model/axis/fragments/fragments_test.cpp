@@ -187,8 +187,13 @@ TEST(Fragments, LongerThanATubeAreCutWhereTwoTubesTouch) {
   }
   const std::vector<Fragment> found = fragments_of(votes);
   ASSERT_THAT(found, SizeIs(2));
-  const auto cut_at = [&](double length_max) { return cut_too_long(found, votes, radius, length_max, {}); };
-  const std::vector<Fragment> cut = cut_at(0.206);
+  const auto cut_for = [&](double length) {
+    std::vector<Fragment> cut = found;
+    const bool is_cut = cut_too_long(cut, votes, radius, length, {});
+    EXPECT_EQ(is_cut, cut.size() > found.size());
+    return cut;
+  };
+  const std::vector<Fragment> cut = cut_for(0.2);
   ASSERT_THAT(cut, SizeIs(3));
   std::size_t points = 0;
   for (const Fragment& fragment : cut) {
@@ -201,15 +206,16 @@ TEST(Fragments, LongerThanATubeAreCutWhereTwoTubesTouch) {
     points += fragment.points.size();
   }
   EXPECT_GE(points, votes.votes.size() - 10) << "only the joint is left out";
-  EXPECT_THAT(cut_at(0.19), SizeIs(2)) << "both parts would be too long";
-  EXPECT_THAT(cut_at(0.41), SizeIs(2)) << "it is a tube";
+  EXPECT_THAT(cut_for(0.18), SizeIs(2)) << "both parts would be too long";
+  EXPECT_THAT(cut_for(0.35), SizeIs(2)) << "the length may be wrong by so much";
 }
 
 TEST(Fragments, LongerThanATubeStayWholeWithoutAWeakPlace) {
   AxisVotes votes;
   add_axis(votes, {-0.2, 0, 0.05}, {0.2, 0, 0.05});
-  const std::vector<Fragment> found = fragments_of(votes);
-  EXPECT_THAT(cut_too_long(found, votes, radius, 0.3, {}), SizeIs(1));
+  std::vector<Fragment> found = fragments_of(votes);
+  EXPECT_FALSE(cut_too_long(found, votes, radius, 0.25, {}));
+  EXPECT_THAT(found, SizeIs(1));
 }
 
 TEST(Fragments, OfAHandfulOfVotesAreNone) {
