@@ -155,8 +155,8 @@ KnownScene with_found_lengths(KnownScene known, const std::vector<AxisSteps>& ki
   return known;
 }
 
-// Whether a part of a tube that lies in the support, or on it, can be there: over a bin's floor, or above its
-// rim.
+// Whether a fragment can be of a tube that lies in the support, or on it: in a bin, where any of it is over
+// the floor or above the rim.
 bool is_in(const Support& support, const Fragment& fragment) {
   if (support.shape != Support::Shape::bin) return true;
   return std::ranges::any_of(fragment.nodes, [&](const Eigen::Vector3d& node) {
@@ -172,8 +172,8 @@ std::vector<Fragment> fragments_in(const Support& support, const std::vector<Fra
   return inside;
 }
 
-// Takes the fragments of all tubes out of which no part is in the support: they are no tubes in it. A tube
-// that hangs over the rim stays whole. Returns true if there were any.
+// Takes out the tubes, fragments and all, that have no part in the support: they are no tubes in it. One that
+// hangs over the rim stays whole. Returns true if there were any.
 bool drop_beside(const Support& support, AxisSteps& steps) {
   std::vector<bool> is_beside(steps.fragments.size());
   for (const std::vector<std::size_t>& members : steps.tubes) {

@@ -36,8 +36,8 @@ struct AxisModel {
 /// The axis method (docs/algorithm.md). Every point votes, along its normal, for a point on a tube axis of
 /// the known radius. The votes of each visible piece of a tube form a thin curve. Pieces are joined by a
 /// maximum-likelihood matching and fitted to the points by least squares. Where few points are probably
-/// right, the votes are cut into pieces again, in other places, and the model with the most that are probably
-/// right is the result; the steps' times are those of all tries. For chains and trees. Arguments as for
+/// right, the votes are cut into pieces again, in other places, and the likeliest model is the result
+/// (likeliest_of()); the steps' times are those of all tries. For chains and trees. Arguments as for
 /// model_tubes(), but all in the support's frame (in_support_frame()).
 AxisModel model_by_axes(
     const PointCloud& cloud, const KnownScene& known, double ratio, std::uint64_t seed,

@@ -9,7 +9,7 @@
 namespace tanglebin {
 namespace {
 
-// Or whether neither is sure of them.
+// Whether both found the same lengths, or neither found any.
 bool have_same_lengths(const AxisModel& a, const AxisModel& b) {
   constexpr double tolerance = 0.07;  // each is right to half of that
   for (std::size_t i = 0; i < a.kinds.size(); ++i) {
