@@ -179,7 +179,7 @@ double weakest_link(const LinkCandidates& candidates, const std::vector<std::siz
 // bent ones are not alike by chance.
 TubeShapes shapes_of_whole_chains(const LinkCandidates& candidates, const std::vector<std::size_t>& chosen) {
   constexpr double nearly = 0.05;  // of the length
-  constexpr double sure = 8;       // log odds
+  constexpr double sure = 15;      // log odds
   constexpr std::size_t enough = 3;
   constexpr std::size_t enough_sure_ones = 2;
   const TubeKind& kind = candidates.kind;
