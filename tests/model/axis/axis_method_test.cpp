@@ -10,6 +10,7 @@
 
 #include "tanglebin/base/random.hpp"
 #include "tanglebin/io/configuration.hpp"
+#include "tanglebin/model/axis/tries.hpp"
 #include "tanglebin/score/score.hpp"
 #include "tanglebin/score/score_tubes.hpp"
 #include "tests/model/scene/scanned.hpp"
@@ -228,11 +229,6 @@ TEST(AxisMethod, JoinsWhatLiesLowerThanTheKnownFloorIfThatMayBeOffByAsMuch) {
 
 // Three tubes in so much noise that their votes hardly hang together.
 TEST(AxisMethod, CutsVotesAgainWhereItIsNotSureAndKeepsWhatIsProbablyRight) {
-  const auto probably_right = [](const Model& model) {
-    double sum = 0;
-    for (const TubeEvidence& tube : model.evidence) sum += tube.confidence * static_cast<double>(tube.points);
-    return sum;
-  };
   const auto step_names = [](const Model& model) {
     std::vector<std::string> names;
     for (const Step& step : model.steps) names.push_back(step.name);

@@ -144,14 +144,6 @@ void drop_specks(std::vector<Fragment>& fragments, double radius, double share_m
   });
 }
 
-// How far each node is along a fragment without branches, m.
-std::vector<double> ways_along(const Fragment& fragment) {
-  std::vector<double> ways{0};
-  for (std::size_t node = 1; node < fragment.nodes.size(); ++node)
-    ways.push_back(ways.back() + (fragment.nodes[node] - fragment.nodes[node - 1]).norm());
-  return ways;
-}
-
 // For each node, the points whose votes it is the nearest to.
 std::vector<std::vector<std::size_t>> points_of_nodes(const Fragment& fragment, const AxisVotes& votes) {
   std::vector<std::vector<std::size_t>> of_nodes(fragment.nodes.size());
@@ -170,7 +162,7 @@ std::optional<std::size_t> weak_node(const Fragment& fragment,
                                      const std::vector<std::vector<std::size_t>>& points_of,
                                      double length_max) {
   constexpr double weak = 0.25;  // of the median
-  const std::vector<double> ways = ways_along(fragment);
+  const std::vector<double> ways = ways_along(fragment.nodes);
   std::vector<std::size_t> counts;
   std::optional<std::size_t> weakest;
   for (std::size_t node = 0; node < ways.size(); ++node) {
@@ -215,6 +207,12 @@ std::vector<Fragment> cut_in_two(const Fragment& fragment, const AxisVotes& vote
 }
 
 }  // namespace
+
+std::vector<double> ways_along(const std::vector<Vector3d>& line) {
+  std::vector<double> ways{0};
+  for (std::size_t i = 1; i < line.size(); ++i) ways.push_back(ways.back() + (line[i] - line[i - 1]).norm());
+  return ways;
+}
 
 std::size_t number_of_points(const std::vector<Fragment>& fragments,
                              const std::vector<std::size_t>& members) {

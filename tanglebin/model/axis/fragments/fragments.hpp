@@ -26,6 +26,9 @@ struct Fragment {
   double length;                       ///< m, of the centre line
 };
 
+/// How far each node of a line is from the first one along it, m.
+std::vector<double> ways_along(const std::vector<Eigen::Vector3d>& line);
+
 /// How many points the fragments `members` have.
 std::size_t number_of_points(const std::vector<Fragment>& fragments, const std::vector<std::size_t>& members);
 

@@ -8,6 +8,7 @@
 
 #include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/median.hpp"
+#include "tanglebin/model/axis/fragments/fragments.hpp"
 
 namespace tanglebin {
 namespace {
@@ -19,13 +20,6 @@ using Eigen::Matrix3Xd;
 using Eigen::SelfAdjointEigenSolver;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
-
-/// How far each node is from the first one along a path, m.
-std::vector<double> ways_along(const CentrePath& path) {
-  std::vector<double> ways{0};
-  for (std::size_t i = 1; i < path.size(); ++i) ways.push_back(ways.back() + (path[i] - path[i - 1]).norm());
-  return ways;
-}
 
 // The places on a path at even steps from its first node to at most its last.
 CentrePath at_even_steps(const CentrePath& path, double step) {
