@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "tanglebin/base/random.hpp"
+#include "tanglebin/runs/file_lock.hpp"
 #include "tanglebin/runs/shard.hpp"
 #include "tanglebin/runs/workers.hpp"
 #include "tests/dataset/small_recipe.hpp"
@@ -148,7 +149,9 @@ TEST(FillDataset, WhatAKilledShardHasDoneIsTakenOverByARunOfAllCases) {
                  }});
   }
   waitpid(child, nullptr, 0);
-  EXPECT_TRUE(std::filesystem::exists(directory / "journal-1-of-2.jsonl"));
+  const std::filesystem::path journal = directory / "journal-1-of-2.jsonl";
+  EXPECT_TRUE(std::filesystem::exists(journal));
+  while (is_locked(journal)) usleep(1000);  // its worker may still wait for the disk
 
   EXPECT_EQ(fill(directory).progress.found, 2U);
   EXPECT_EQ(files_below(directory.path()), files_below(whole.path()));
