@@ -61,17 +61,35 @@ struct Circle {
   double radius;
 };
 
-/// Sums over the points near the front of a circle.
+/// Sums over the points near the front of a circle. Of a point, how far it moves away from the circle where
+/// the centre moves sideways by 1 is its slope, and where the radius grows by 1, its growth.
 struct Sums {
-  Matrix3d products = Matrix3d::Zero();
-  Vector3d right_side = Vector3d::Zero();
-  double squares = 0;  // of the residuals
+  double slopes = 0;
+  double growths = 0;
+  double slopes_squared = 0;
+  double slopes_by_growths = 0;
+  double growths_squared = 0;
+  double residuals = 0;
+  double residuals_by_slopes = 0;
+  double residuals_by_growths = 0;
+  double residuals_squared = 0;
   std::size_t points = 0;
   std::size_t facing = 0;  // with those that are farther from the circle
   double leftmost = 1;     // in radii from the middle
   double rightmost = -1;
 
-  double noise() const { return std::sqrt(squares / static_cast<double>(points)); }
+  double count() const { return static_cast<double>(points); }
+  double noise() const { return std::sqrt(residuals_squared / count()); }
+
+  /// Of the normal equations, for the centre and the radius.
+  Matrix3d products() const {
+    Matrix3d sums;
+    sums << slopes_squared, slopes, slopes_by_growths,  //
+        slopes, count(), growths,                       //
+        slopes_by_growths, growths, growths_squared;
+    return sums;
+  }
+  Vector3d right_side() const { return {residuals_by_slopes, residuals, residuals_by_growths}; }
 };
 
 // What faces away from the sensor by more than 50° does not count: there, sensors blend a tube with what is
@@ -86,10 +104,17 @@ Sums sums_over(const Section& section, const Circle& circle, double residual_max
     const double facing = std::sqrt(1 - aside * aside);
     const double residual = point.y() - circle.centre.y() - circle.radius * facing;
     if (std::abs(residual) > residual_max) continue;
-    const Vector3d row(aside / facing, 1, 1 / facing);
-    sums.products += row * row.transpose();
-    sums.right_side += residual * row;
-    sums.squares += residual * residual;
+    const double slope = aside / facing;
+    const double growth = 1 / facing;
+    sums.slopes += slope;
+    sums.growths += growth;
+    sums.slopes_squared += slope * slope;
+    sums.slopes_by_growths += slope * growth;
+    sums.growths_squared += growth * growth;
+    sums.residuals += residual;
+    sums.residuals_by_slopes += residual * slope;
+    sums.residuals_by_growths += residual * growth;
+    sums.residuals_squared += residual * residual;
     ++sums.points;
     sums.leftmost = std::min(sums.leftmost, aside);
     sums.rightmost = std::max(sums.rightmost, aside);
@@ -139,7 +164,7 @@ std::optional<PieceRadius> radius_of(const Section& section, double known_radius
   for (int i = 0; i < iterations; ++i) {
     sums = sums_over(section, *circle, wanted);
     if (sums.points < points_min || 2 * sums.points < sums.facing) return std::nullopt;
-    const Vector3d step = sums.products.inverse() * sums.right_side;
+    const Vector3d step = sums.products().inverse() * sums.right_side();
     circle->centre += step.head<2>();
     circle->radius *= 1 + std::clamp(step[2] / circle->radius, -step_max, step_max);
     const double factor = circle->radius / known_radius;
@@ -149,7 +174,7 @@ std::optional<PieceRadius> radius_of(const Section& section, double known_radius
       wanted = std::min(wanted, std::max(sigmas * sums.noise(), exact * known_radius));
   }
   if (std::asin(sums.rightmost) - std::asin(sums.leftmost) < arc_min) return std::nullopt;
-  const double error = sums.noise() * std::sqrt(sums.products.inverse()(2, 2));
+  const double error = sums.noise() * std::sqrt(sums.products().inverse()(2, 2));
   return PieceRadius{circle->radius, std::max(error, error_min * circle->radius)};
 }
 

@@ -297,16 +297,16 @@ private:
   // The link with the features of a way; none if it is not likely by that way.
   std::optional<Link> link_by(const Way& way, Link link, const FragmentEnd& from,
                               const FragmentEnd& to) const {
+    const double overlap_max = std::pow(most_of(link, obstruction, settings_), 2);
+    const std::optional<double> overlap = overlap_on(way, overlap_max, link, from, to);
+    if (!overlap) return std::nullopt;
+    link.features[obstruction] = std::sqrt(*overlap);
     const double empty_max = std::min(settings_.seen_empty_max, most_of(link, seen_empty, settings_));
     const std::optional<double> empty = mean_on(way, empty_max, [&](const Vector3d& axis) {
       return seen_.shows_empty(axis, kind_.radius) ? 1.0 : 0.0;
     });
     if (!empty) return std::nullopt;
     link.features[seen_empty] = *empty;
-    const double overlap_max = std::pow(most_of(link, obstruction, settings_), 2);
-    const std::optional<double> overlap = overlap_on(way, overlap_max, link, from, to);
-    if (!overlap) return std::nullopt;
-    link.features[obstruction] = std::sqrt(*overlap);
     link.weight = weight_of(link, settings_);
     return link.weight > 0 ? std::optional(link) : std::nullopt;
   }
