@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -17,6 +18,13 @@ Value median(std::vector<Value> values) {
 
 /// The standard deviation of normal errors is so many times the median of their absolute values.
 inline constexpr double deviation_of_median = 1.4826;
+
+/// The standard deviation about a middle of the normal distribution whose median distance from it is that of
+/// the values, of which there is at least one.
+inline double deviation_about(double middle, std::vector<double> values) {
+  for (double& value : values) value = std::abs(value - middle);
+  return deviation_of_median * median(std::move(values));
+}
 
 /// The value of the item in the middle, of values with the numbers of items that have them; of an even number
 /// of items, the lesser of the two in the middle; Value{} of none.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <string>
 
 namespace tanglebin {
@@ -21,6 +22,16 @@ TEST(WeightedMedian, OfAnEvenNumberIsTheLowerOfTheTwoInTheMiddle) {
 
 TEST(WeightedMedian, OfNothingIsNothing) {
   EXPECT_EQ(weighted_median(Weighted{}), "");
+}
+
+TEST(DeviationAbout, IsTheStandardDeviationOfNormalValuesWhateverAFewOthersAre) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal(5, 0.2);
+  std::vector<double> values(20'000);
+  for (double& value : values) value = normal(random);
+  EXPECT_NEAR(deviation_about(5, values), 0.2, 0.005);
+  for (std::size_t i = 0; i < 200; ++i) values[i] = 1e9;
+  EXPECT_NEAR(deviation_about(5, values), 0.2, 0.01);
 }
 
 }  // namespace

@@ -213,7 +213,8 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
     look_beyond_ends(steps.fragments, known_kind.radius, seen);
     steps.kind = with_length(known_kind, fragments_in(known.support, steps.fragments), seen, settings.link);
-    if (cut_too_long(steps.fragments, steps.votes, known_kind.radius, steps.kind.length(), settings.fragment))
+    if (cut_too_long(steps.fragments, steps.votes, known_kind.radius,
+                     length_max(steps.kind.length(), settings.link), settings.fragment))
       look_beyond_ends(steps.fragments, known_kind.radius, seen);
     join(steps);
     while (drop_beside(known.support, steps)) join(steps);

@@ -198,12 +198,6 @@ std::vector<double> radii_of(const std::vector<Sighting>& sightings) {
   return radii;
 }
 
-// The standard deviation of a normal distribution with the same median deviation.
-double scatter_about(double middle, std::vector<double> values) {
-  for (double& value : values) value = std::abs(value - middle);
-  return deviation_of_median * median(std::move(values));
-}
-
 RadiusEstimate refined(const PixelGrid& grid, double radius, const RadiusRange& range,
                        const std::function<void()>& at_place) {
   constexpr int rounds_max = 10;
@@ -214,7 +208,7 @@ RadiusEstimate refined(const PixelGrid& grid, double radius, const RadiusRange& 
     const std::size_t places = separate_places(grid, sightings, 2 * radius);
     if (sightings.size() < sightings_min || places < places_min) give_up_without_tubes(grid, range);
     const double next = median(radii_of(sightings));
-    const double scatter = scatter_about(next, radii_of(sightings));
+    const double scatter = deviation_about(next, radii_of(sightings));
     const double of_median = std::sqrt(std::numbers::pi / 2);  // against the mean
     const double standard_error = of_median * scatter / std::sqrt(static_cast<double>(places));
     if (std::abs(next - radius) <= std::max(settled * next, standard_error)) {

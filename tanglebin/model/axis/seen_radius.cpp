@@ -192,14 +192,14 @@ double weighted_middle(std::vector<PieceRadius>& pieces) {
 // The error is what the pieces' own errors and what their differences say, whichever is more.
 SeenRadius middle_of(std::vector<PieceRadius> pieces) {
   const double middle = weighted_middle(pieces);
-  std::vector<double> differences;
-  differences.reserve(pieces.size());
+  std::vector<double> radii;
+  radii.reserve(pieces.size());
   double weight = 0;
   for (const PieceRadius& piece : pieces) {
-    differences.push_back(std::abs(piece.radius - middle));
+    radii.push_back(piece.radius);
     weight += piece.weight();
   }
-  const double deviation = deviation_of_median * median(std::move(differences));
+  const double deviation = deviation_about(middle, std::move(radii));
   const double from_pieces = deviation / std::sqrt(static_cast<double>(pieces.size()));
   return {middle, std::max(from_pieces, middle / std::sqrt(weight)), pieces.size()};
 }

@@ -188,11 +188,9 @@ Fragment part_of(const Fragment& fragment, const std::vector<std::vector<std::si
   return part;
 }
 
-// Two parts that are not longer than the tubes, m; none if there is no weak place between them.
+// Two parts that are not longer than tubes may be, m; none if there is no weak place between them.
 std::vector<Fragment> cut_in_two(const Fragment& fragment, const AxisVotes& votes, double radius,
-                                 double length, const FragmentSettings& settings) {
-  constexpr double tolerance = 0.03;
-  const double length_max = (1 + tolerance) * length;
+                                 double length_max, const FragmentSettings& settings) {
   const std::vector<std::vector<std::size_t>> points_of = points_of_nodes(fragment, votes);
   const std::optional<std::size_t> cut = weak_node(fragment, points_of, length_max);
   if (!cut) return {};
@@ -254,13 +252,13 @@ std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool
   return fragments;
 }
 
-bool cut_too_long(std::vector<Fragment>& fragments, const AxisVotes& votes, double radius, double length,
+bool cut_too_long(std::vector<Fragment>& fragments, const AxisVotes& votes, double radius, double length_max,
                   const FragmentSettings& settings) {
-  constexpr double much_longer = 1.3;  // a length that was told may be wrong by less
+  constexpr double much_longer = 1.25;  // a length that was told may be wrong by less
   const std::size_t before = fragments.size();
   for (std::size_t i = 0; i < before; ++i) {
-    if (fragments[i].ends.size() > 2 || fragments[i].length <= much_longer * length) continue;
-    std::vector<Fragment> parts = cut_in_two(fragments[i], votes, radius, length, settings);
+    if (fragments[i].ends.size() > 2 || fragments[i].length <= much_longer * length_max) continue;
+    std::vector<Fragment> parts = cut_in_two(fragments[i], votes, radius, length_max, settings);
     if (parts.empty()) continue;
     fragments[i] = std::move(parts[0]);
     fragments.push_back(std::move(parts[1]));

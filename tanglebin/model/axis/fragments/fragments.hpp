@@ -40,10 +40,10 @@ double points_on_a_radius(const std::vector<Fragment>& fragments, double radius)
 std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
                                      const FragmentSettings& settings, double shift = 0);
 
-/// Cuts fragments without branches that are much longer than the tubes, `length` (m), so that neither part is
-/// longer: two tubes whose ends touch. Only where next to no votes are; these points are left out. Without
-/// such a place, the fragment stays as it is: the length may be wrong. Returns whether it cut any.
-bool cut_too_long(std::vector<Fragment>& fragments, const AxisVotes& votes, double radius, double length,
+/// Cuts fragments without branches that are much longer than tubes may be, `length_max` (m), so that neither
+/// part is longer: two tubes whose ends touch. Only where next to no votes are; these points are left out.
+/// Without such a place, the fragment stays as it is: the length may be wrong. Returns whether it cut any.
+bool cut_too_long(std::vector<Fragment>& fragments, const AxisVotes& votes, double radius, double length_max,
                   const FragmentSettings& settings);
 
 }  // namespace tanglebin

@@ -175,7 +175,7 @@ public:
   /// In the order in which they were given.
   std::vector<Link> take() {
     if (links_.size() > most) drop_lightest();
-    std::ranges::sort(links_, {}, &Numbered::number);
+    if (added_ > links_.size()) std::ranges::sort(links_, {}, &Numbered::number);
     std::vector<Link> links;
     links.reserve(links_.size());
     for (Numbered& link : links_) links.push_back(std::move(link.link));

@@ -187,13 +187,13 @@ TEST(Fragments, LongerThanATubeAreCutWhereTwoTubesTouch) {
   }
   const std::vector<Fragment> found = fragments_of(votes);
   ASSERT_THAT(found, SizeIs(2));
-  const auto cut_for = [&](double length) {
+  const auto cut_for = [&](double length_max) {
     std::vector<Fragment> cut = found;
-    const bool is_cut = cut_too_long(cut, votes, radius, length, {});
+    const bool is_cut = cut_too_long(cut, votes, radius, length_max, {});
     EXPECT_EQ(is_cut, cut.size() > found.size());
     return cut;
   };
-  const std::vector<Fragment> cut = cut_for(0.2);
+  const std::vector<Fragment> cut = cut_for(0.206);
   ASSERT_THAT(cut, SizeIs(3));
   std::size_t points = 0;
   for (const Fragment& fragment : cut) {
