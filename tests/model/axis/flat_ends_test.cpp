@@ -51,6 +51,19 @@ TEST(FlatEnds, AreWhereTheTubeIsCut) {
   }
 }
 
+// A bar that is bent by a right angle, with one leg upright: its face, and the leg that lies on the floor.
+TEST(FlatEnds, OfAnUprightLegAreOneTubeWithTheRest) {
+  constexpr double radius = 0.0125;
+  const Vector3d corner(-0.05, 0, radius);
+  const PointCloud cloud = test::seen_by(
+      test::near_camera(), {{0, test::wavy_floor(0, 1)},
+                            {1, test::flat_cylinder(corner, corner + Vector3d(0, 0, 0.08), radius)},
+                            {1, test::flat_cylinder(corner, corner + Vector3d(0.12, 0, 0), radius)}});
+  const Model model = model_tubes(cloud, on_a_plane(radius, 0.2));
+  EXPECT_EQ(model.tubes.size(), 1U);
+  EXPECT_GT(count_of(model.labels, 1), 0.98 * static_cast<double>(count_of(cloud.labels, 1)));
+}
+
 // What lies behind the cut, as near as a rounded end would reach, is not the tube's.
 TEST(FlatEnds, LeaveWhatLiesBeyondThem) {
   const Vector3d a(-0.15, 0, 0.0125);

@@ -128,6 +128,12 @@ std::vector<FragmentEnd> ends_of(const Fragment& fragment, const AxisVotes& vote
   return ends;
 }
 
+// Its centre line leads inwards.
+std::vector<FragmentEnd> ends_of_face(const Fragment& fragment) {
+  const Vector3d outward = (fragment.nodes[0] - fragment.nodes[1]).normalized();
+  return {{0, fragment.nodes[0], outward}, {1, fragment.nodes[1], -outward}};
+}
+
 double length_of(const Fragment& fragment) {
   double length = 0;
   for (std::size_t node = 1; node < fragment.nodes.size(); ++node) {
@@ -237,14 +243,15 @@ std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool
                         .weak_max = settings.weak_max,
                         .parallel_max = settings.parallel_max,
                         .may_branch = with_branches,
-                        .shift = shift};
+                        .shift = shift,
+                        .face_radius = radius};
   std::vector<Fragment> fragments;
   for (Skeleton& skeleton :
        find_skeletons(votes.votes, votes.normals, settings.voxel * radius, settings.step * radius, cut)) {
     if (skeleton.points.size() < static_cast<std::size_t>(settings.points_min)) continue;
     Fragment fragment{
         std::move(skeleton.points), std::move(skeleton.nodes), std::move(skeleton.parents), {}, 0};
-    fragment.ends = ends_of(fragment, votes, radius, settings);
+    fragment.ends = skeleton.is_face ? ends_of_face(fragment) : ends_of(fragment, votes, radius, settings);
     fragment.length = length_of(fragment);
     fragments.push_back(std::move(fragment));
   }

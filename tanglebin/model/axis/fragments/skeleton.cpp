@@ -1,5 +1,6 @@
 #include "tanglebin/model/axis/fragments/skeleton.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -46,15 +48,21 @@ std::array<Vector3i, 13> half_of_the_neighbours() {
 }
 
 struct VoxelGrid {
-  std::vector<Voxel> voxels;
-  std::vector<std::size_t> of_points;  // for each point its voxel; no_index if the point is not finite
+  double size;  // m, of a voxel
+  std::vector<Voxel> voxels{};
+  std::unordered_map<std::uint64_t, std::size_t> at{};  // by voxel_key()
+  std::vector<std::size_t> of_points{};  // for each point its voxel; no_index if the point is not finite
+
+  std::size_t find(const Vector3i& key) const {
+    const auto found = at.find(voxel_key(key));
+    return found == at.end() ? no_index : found->second;
+  }
 };
 
 VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
                       double size, double shift) {
   const Vector3d origin = Vector3d::Constant(shift * size);
-  VoxelGrid grid{{}, std::vector(points.size(), no_index)};
-  std::unordered_map<std::uint64_t, std::size_t> at;
+  VoxelGrid grid{.size = size, .of_points = std::vector(points.size(), no_index)};
   std::size_t last = no_index;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) continue;
@@ -62,7 +70,7 @@ VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, const std::vec
     const Vector3i key = voxel_at(point - origin, size);
     // Most often, the next point is in the same voxel.
     if (last == no_index || grid.voxels[last].key != key) {
-      const auto [found, is_new] = at.try_emplace(voxel_key(key), grid.voxels.size());
+      const auto [found, is_new] = grid.at.try_emplace(voxel_key(key), grid.voxels.size());
       if (is_new) grid.voxels.push_back({key});
       last = found->second;
     }
@@ -75,10 +83,10 @@ VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, const std::vec
   const auto offsets = half_of_the_neighbours();
   for (std::size_t i = 0; i < grid.voxels.size(); ++i) {
     for (const Vector3i& offset : offsets) {
-      const auto found = at.find(voxel_key(grid.voxels[i].key + offset));
-      if (found == at.end()) continue;
-      grid.voxels[i].neighbours.push_back(found->second);
-      grid.voxels[found->second].neighbours.push_back(i);
+      const std::size_t found = grid.find(grid.voxels[i].key + offset);
+      if (found == no_index) continue;
+      grid.voxels[i].neighbours.push_back(found);
+      grid.voxels[found].neighbours.push_back(i);
     }
   }
   return grid;
@@ -278,6 +286,93 @@ private:
   std::vector<bool> kept_;
 };
 
+/// The votes of a set of voxels.
+struct Votes {
+  double count = 0;
+  Vector3d mean = Vector3d::Zero();       // m
+  Vector3d normal = Vector3d::Zero();     // the mean of their normals
+  Vector3d deviation = Vector3d::Zero();  // m, along their principal axes, the least first
+};
+
+Votes votes_in(const std::vector<Voxel>& grid, const std::vector<std::size_t>& voxels) {
+  Votes votes;
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  for (const std::size_t i : voxels) {
+    const auto count = static_cast<double>(grid[i].points);
+    const Vector3d mean = grid[i].mean();
+    votes.count += count;
+    votes.mean += count * mean;
+    votes.normal += grid[i].normals;
+    products += count * mean * mean.transpose();
+  }
+  votes.mean /= votes.count;
+  votes.normal /= votes.count;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
+      products / votes.count - votes.mean * votes.mean.transpose(), Eigen::EigenvaluesOnly);
+  votes.deviation = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
+  return votes;
+}
+
+/// Finds flat ends of tubes that are seen face-on. Their votes, one radius inside, are a disc.
+class FaceFinder {
+public:
+  FaceFinder(const VoxelGrid& grid, double radius) : grid_(grid), radius_(radius) {}
+
+  std::optional<Skeleton> face(const std::vector<std::size_t>& voxels) const {
+    constexpr std::size_t most = 200;  // a disc has fewer by far
+    if (radius_ <= 0 || voxels.size() > most) return std::nullopt;
+    const Votes votes = votes_in(grid_.voxels, voxels);
+    if (!is_disc(votes) || goes_on(votes)) return std::nullopt;
+    return Skeleton{.points = {},
+                    .nodes = {votes.mean + radius_ * votes.normal.normalized(), votes.mean},
+                    .parents = {0, 0},
+                    .is_face = true};
+  }
+
+private:
+  // Those of all else are on lines, or are parts of something larger.
+  bool is_disc(const Votes& votes) const {
+    constexpr double parallel_min = 0.97;
+    constexpr double breadth_min = 0.25;  // radii, as a standard deviation; of a whole disc it is 0.5
+    constexpr double breadth_max = 0.55;
+    return votes.normal.norm() > parallel_min && votes.deviation[1] > breadth_min * radius_ &&
+           votes.deviation[2] < breadth_max * radius_;
+  }
+
+  // Whether the plane of a disc goes on beyond its rim.
+  bool goes_on(const Votes& disc) const {
+    constexpr double share_max = 0.2;  // of the disc's votes
+    constexpr double reach = 2.2;      // radii
+    const Vector3i middle = voxel_at(disc.mean, grid_.size);
+    const int steps = static_cast<int>(std::ceil(reach * radius_ / grid_.size));
+    double beyond = 0;
+    for (int x = -steps; x <= steps; ++x) {
+      for (int y = -steps; y <= steps; ++y) {
+        for (int z = -steps; z <= steps; ++z) {
+          const std::size_t found = grid_.find(middle + Vector3i(x, y, z));
+          if (found != no_index && is_beyond_rim(grid_.voxels[found], disc))
+            beyond += static_cast<double>(grid_.voxels[found].points);
+        }
+      }
+    }
+    return beyond > share_max * disc.count;
+  }
+
+  bool is_beyond_rim(const Voxel& voxel, const Votes& disc) const {
+    constexpr double rim = 1.1;  // radii
+    constexpr double height_max = 0.3;
+    constexpr double parallel_min = 0.95;
+    const Vector3d normal = disc.normal.normalized();
+    const Vector3d way = voxel.mean() - disc.mean;
+    const double height = way.dot(normal);
+    return std::abs(height) < height_max * radius_ && (way - height * normal).norm() > rim * radius_ &&
+           voxel.normals.dot(normal) > parallel_min * static_cast<double>(voxel.points);
+  }
+
+  const VoxelGrid& grid_;
+  double radius_;  // m
+};
+
 /// Cuts connected sets of voxels until each piece looks like a tube.
 class Cutter {
 public:
@@ -285,6 +380,7 @@ public:
       : grid_(grid),
         settings_(settings),
         maker_(grid.voxels, step),
+        faces_(grid, settings.face_radius),
         seen_(grid.voxels.size()),
         skeleton_of_(grid.voxels.size(), no_index) {}
 
@@ -293,7 +389,9 @@ public:
     for (const std::vector<std::size_t>& component : connected_components(grid_.voxels, members, seen_))
       std::ranges::move(parts_of(without_weak(component, settings_.weak_max)), std::back_inserter(parts));
     parallel_max_ = parallel_max_of(parts);
-    for (Part& part : parts) take(std::move(part), 0);
+    for (Part& part : parts) {
+      if (part.is_tube || !take_faces(part)) take(std::move(part), 0);
+    }
   }
 
   std::vector<Skeleton> skeletons() {
@@ -327,16 +425,46 @@ private:
 
   // A part that is left after this number of cuts: of weak voxels and of forks, by turns.
   void take(Part part, std::size_t cuts) {
-    if (part.is_tube) {
+    if (std::optional<Skeleton> face = faces_.face(part.voxels)) {
+      add(part.voxels, *std::move(face));
+    } else if (part.is_tube) {
       if (cuts > 0 && parallelism(part.voxels) >= parallel_max_) return;
-      for (const std::size_t voxel : part.voxels) skeleton_of_[voxel] = skeletons_.size();
-      skeletons_.push_back(std::move(part.skeleton));
+      add(part.voxels, std::move(part.skeleton));
     } else if (cuts < 2 * weak_shares.size()) {
       const bool is_weak_next = cuts % 2 == 0;
       for (Part& rest : parts_of(is_weak_next ? without_weak(part.voxels, weak_shares[cuts / 2])
                                               : without_forks(part.voxels, part.whole)))
         take(std::move(rest), cuts + 1);
     }
+  }
+
+  // Takes the flat ends in a part, whose votes hang together with those of the tube's side, and what is left
+  // without them. Returns false if there are none.
+  bool take_faces(const Part& part) {
+    constexpr double parallel_min = 0.95;
+    std::vector<std::size_t> flat;
+    std::ranges::copy_if(part.voxels, std::back_inserter(flat), [&](std::size_t voxel) {
+      return grid_.voxels[voxel].normals.norm() >
+             parallel_min * static_cast<double>(grid_.voxels[voxel].points);
+    });
+    std::vector<std::size_t> taken;
+    for (const std::vector<std::size_t>& piece : connected_components(grid_.voxels, flat, seen_)) {
+      std::optional<Skeleton> face = faces_.face(piece);
+      if (!face) continue;
+      add(piece, *std::move(face));
+      taken.insert(taken.end(), piece.begin(), piece.end());
+    }
+    if (taken.empty()) return false;
+    std::ranges::sort(taken);
+    for (Part& rest : parts_of(without(
+             part.voxels, [&](std::size_t voxel) { return std::ranges::binary_search(taken, voxel); })))
+      take(std::move(rest), 0);
+    return true;
+  }
+
+  void add(const std::vector<std::size_t>& voxels, Skeleton skeleton) {
+    for (const std::size_t voxel : voxels) skeleton_of_[voxel] = skeletons_.size();
+    skeletons_.push_back(std::move(skeleton));
   }
 
   // Nearly all votes are near the skeleton, which has branches only if tubes have.
@@ -436,6 +564,7 @@ private:
   VoxelGrid& grid_;
   const CutSettings& settings_;
   TreeMaker maker_;
+  FaceFinder faces_;
   double parallel_max_ = 1;
   std::vector<bool> seen_;
   std::vector<std::size_t> skeleton_of_;  // of each voxel; no_index if it is in none

@@ -56,8 +56,8 @@ struct LinkWeights {
 /// Learned by `tanglebin learn` from recipes/learning.toml and recipes/learning-views.toml, rounded to four
 /// decimals.
 inline constexpr LinkWeights learned_weights = {
-    .chain_ends = {12.4981, -1.8164, 0.0000, -9.0409, 1.1700, 3.0018, -7.2622, -9.7021, -0.6436, -3.4870,
-                   -2.3064, -0.4927},
+    .chain_ends = {12.5553, -1.8596, 0.0000, -9.2824, 1.1423, 3.3042, -7.4517, -9.6619, -0.2477, -4.0117,
+                   -2.0405, -0.4822},
     .tree_ends = {11.1742, -1.5026, -0.2483, -9.8905, 0.9548, 4.8162, -14.1562, -4.7583, 0.2393, -1.6935,
                   -1.0951, -0.1948},
     .junction = {3.5911, -0.7635, -0.3208, -9.3447, 2.7652, -1.0841, -23.1571, 1.0808, -0.2595, 0.0000,

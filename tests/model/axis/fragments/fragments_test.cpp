@@ -218,6 +218,29 @@ TEST(Fragments, LongerThanATubeStayWholeWithoutAWeakPlace) {
   EXPECT_THAT(found, SizeIs(1));
 }
 
+// Its votes are a disc one radius inside.
+TEST(Fragments, OfAFlatEndGoOnAwayFromIt) {
+  const Vector3d outward = Vector3d(0.3, -0.1, 1).normalized();
+  const Vector3d side = outward.unitOrthogonal();
+  const Vector3d inside(0.1, 0, 0.15);
+  AxisVotes votes;
+  for (int i = 0; i < 400; ++i) {
+    const double angle = 2.4 * i;  // a sunflower's seeds
+    const double way = 0.8 * radius * std::sqrt(i / 400.0);
+    const Vector3d place = std::cos(angle) * side + std::sin(angle) * outward.cross(side);
+    votes.votes.push_back((inside + way * place).cast<float>());
+    votes.normals.push_back(outward.cast<float>());
+  }
+  const std::vector<Fragment> found = fragments_of(votes);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_NEAR(found[0].length, radius, 1e-9);
+  ASSERT_THAT(found[0].ends, SizeIs(2));
+  EXPECT_LT((found[0].ends[0].outward - outward).norm(), 0.01);
+  EXPECT_LT((found[0].ends[0].position - inside - radius * outward).norm(), 0.1 * radius);
+  EXPECT_LT((found[0].ends[1].outward + outward).norm(), 0.01);
+  EXPECT_LT((found[0].ends[1].position - inside).norm(), 0.1 * radius);
+}
+
 TEST(Fragments, OfAHandfulOfVotesAreNone) {
   AxisVotes votes;
   for (int i = 0; i < FragmentSettings{}.points_min - 1; ++i) {

@@ -146,6 +146,17 @@ struct Votes {
     }
   }
 
+  // `count` votes in a horizontal ring or disc, from a plane above.
+  void add_ring(const Vector3d& middle, double from, double to, int count) {
+    Rng rng(7);
+    for (int i = 0; i < count; ++i) {
+      const double way = std::sqrt(uniform_real(rng, from * from, to * to));
+      const double angle = uniform_real(rng, 0, 2 * std::numbers::pi);
+      points.push_back((middle + way * Vector3d(std::cos(angle), std::sin(angle), 0)).cast<float>());
+      normals.emplace_back(0, 0, 1);
+    }
+  }
+
   void add_plane(const Vector3d& corner) {
     Rng rng(5);
     for (int i = 0; i < 20000; ++i) {
@@ -212,6 +223,54 @@ TEST(Skeletons, AreCutOutOfWhatIsAsFlatAsTheOtherTubes) {
   votes.add_tube({-0.1, -0.1, 0}, {0.1, -0.1, 0}, 4000, most);
   votes.add_plane({0.2, 0, 0});
   EXPECT_EQ(pieces_of(votes).size(), 4U);
+}
+
+constexpr double tube_radius = 0.0125;
+
+std::vector<Skeleton> pieces_with_faces(const Votes& votes) {
+  CutSettings with_faces = cut;
+  with_faces.face_radius = tube_radius;
+  return pieces_of(votes, with_faces);
+}
+
+void expect_face(const Skeleton& skeleton, const Vector3d& inside) {
+  EXPECT_TRUE(skeleton.is_face);
+  ASSERT_EQ(skeleton.nodes.size(), 2U);
+  EXPECT_LT((skeleton.nodes[0] - inside - Vector3d(0, 0, tube_radius)).norm(), 0.1 * tube_radius);
+  EXPECT_LT((skeleton.nodes[1] - inside).norm(), 0.1 * tube_radius);
+}
+
+// Of a tube that is seen end-on.
+TEST(Skeletons, OfAFlatEndLeadInwardsFromItsMiddle) {
+  Votes votes;
+  votes.add_ring({0.1, 0, 0.2}, 0, 0.8 * tube_radius, 400);
+  votes.add_tube({-0.1, 0.1, 0}, {0.1, 0.1, 0}, 4000);
+  const std::vector<Skeleton> found = pieces_with_faces(votes);
+  ASSERT_EQ(found.size(), 2U);
+  expect_face(found[0], {0.1, 0, 0.2});
+  EXPECT_EQ(found[0].points.size(), 400U);
+  EXPECT_FALSE(found[1].is_face);
+  for (const Skeleton& skeleton : pieces_of(votes)) EXPECT_FALSE(skeleton.is_face);
+}
+
+// The side is seen only where the tube leans, or beside the middle of the image.
+TEST(Skeletons, OfAFlatEndAreCutFromThoseOfTheSide) {
+  Votes votes;
+  votes.add_ring({0.1, 0, 0.2}, 0, 0.8 * tube_radius, 400);
+  votes.add_tube({0.1, 0, 0.2}, {0.1, 0, 0.14}, 200);
+  const std::vector<Skeleton> found = pieces_with_faces(votes);
+  ASSERT_EQ(found.size(), 2U);
+  const bool is_first = found[0].is_face;
+  expect_face(found[is_first ? 0 : 1], {0.1, 0, 0.2});
+  EXPECT_NEAR(length_of(found[is_first ? 1 : 0]), 0.06, 0.02);
+}
+
+// Around it the plane goes on, though it hangs together with nothing there.
+TEST(Skeletons, OfAPartOfAPlaneAreNoFlatEnd) {
+  Votes votes;
+  votes.add_ring({0.1, 0, 0.2}, 0, 0.7 * tube_radius, 400);
+  votes.add_ring({0.1, 0, 0.2}, 1.5 * tube_radius, 4 * tube_radius, 10000);
+  for (const Skeleton& skeleton : pieces_with_faces(votes)) EXPECT_FALSE(skeleton.is_face);
 }
 
 TEST(Skeletons, LeaveOutWeakVoxelsFromTheStart) {
