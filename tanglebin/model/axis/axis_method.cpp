@@ -164,11 +164,15 @@ bool is_in(const Support& support, const Fragment& fragment) {
   });
 }
 
-// What stands beside a bin, such as a rack, says nothing of its tubes.
+// A tube lies in its bin for the most part. What stands beside a bin, such as a rack, says nothing of its
+// tubes, nor does its rim.
 std::vector<Fragment> fragments_in(const Support& support, const std::vector<Fragment>& fragments) {
+  if (support.shape != Support::Shape::bin) return fragments;
+  const auto is_over = [&](const Eigen::Vector3d& node) { return is_over_floor(support.bin, node); };
   std::vector<Fragment> inside;
-  std::ranges::copy_if(fragments, std::back_inserter(inside),
-                       [&](const Fragment& fragment) { return is_in(support, fragment); });
+  std::ranges::copy_if(fragments, std::back_inserter(inside), [&](const Fragment& fragment) {
+    return 2 * std::ranges::count_if(fragment.nodes, is_over) > std::ssize(fragment.nodes);
+  });
   return inside;
 }
 
