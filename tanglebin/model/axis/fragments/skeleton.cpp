@@ -99,7 +99,8 @@ void isolate(std::vector<Voxel>& voxels, std::size_t voxel) {
   voxels[voxel].neighbours.clear();
 }
 
-// The connected components of a set of voxels, to which all their neighbours belong.
+// The connected components of a set of voxels. All others must be marked as seen, unless they have no
+// neighbours in the set.
 std::vector<std::vector<std::size_t>> connected_components(const std::vector<Voxel>& voxels,
                                                            const std::vector<std::size_t>& members,
                                                            std::vector<bool>& seen) {

@@ -54,6 +54,15 @@ TEST(WithLength, IsTheOneGivenIfItIsGiven) {
   EXPECT_EQ(modelled_with(two_in_line(), 0.295, 0.3).kinds[0].kind.length(), 0.3);
 }
 
+// The sides of a rim are long, round, and seen from end to end.
+TEST(WithLength, IsTheOneGivenWhateverLiesOnTheRim) {
+  std::vector<Tube> tubes = two_in_line();
+  int id = 5;
+  for (const double y : {-0.225, -0.195, 0.195})
+    tubes.push_back(test::chain(id++, 0.0125, {{-0.25, y, 0.2125}, {0.25, y, 0.2125}}));
+  EXPECT_EQ(modelled_with(tubes, 0.24, 0.24).kinds[0].kind.length(), 0.24);
+}
+
 TEST(WithLength, IsNotTheOneGivenIfThreeTubesAreLonger) {
   EXPECT_NEAR(modelled_with(two_in_line(), 0, 0.22).kinds[0].kind.length(), 0.24, 0.005);
   const std::vector<Tube> longer = {test::chain(1, 0.0125, {{-0.2, -0.1, 0.0125}, {0.04, -0.1, 0.0125}}),
