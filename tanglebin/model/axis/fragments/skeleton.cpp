@@ -291,7 +291,8 @@ private:
 struct Votes {
   double count = 0;
   Vector3d mean = Vector3d::Zero();       // m
-  Vector3d normal = Vector3d::Zero();     // the mean of their normals
+  Vector3d normal = Vector3d::Zero();     // unit, along the mean of their normals
+  double parallelism = 0;                 // length of that mean
   Vector3d deviation = Vector3d::Zero();  // m, along their principal axes, the least first
 };
 
@@ -308,6 +309,8 @@ Votes votes_in(const std::vector<Voxel>& grid, const std::vector<std::size_t>& v
   }
   votes.mean /= votes.count;
   votes.normal /= votes.count;
+  votes.parallelism = votes.normal.norm();
+  votes.normal.normalize();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
       products / votes.count - votes.mean * votes.mean.transpose(), Eigen::EigenvaluesOnly);
   votes.deviation = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
@@ -325,7 +328,7 @@ public:
     const Votes votes = votes_in(grid_.voxels, voxels);
     if (!is_disc(votes) || goes_on(votes)) return std::nullopt;
     return Skeleton{.points = {},
-                    .nodes = {votes.mean + radius_ * votes.normal.normalized(), votes.mean},
+                    .nodes = {votes.mean + radius_ * votes.normal, votes.mean},
                     .parents = {0, 0},
                     .is_face = true};
   }
@@ -336,7 +339,7 @@ private:
     constexpr double parallel_min = 0.97;
     constexpr double breadth_min = 0.25;  // radii, as a standard deviation; of a whole disc it is 0.5
     constexpr double breadth_max = 0.55;
-    return votes.normal.norm() > parallel_min && votes.deviation[1] > breadth_min * radius_ &&
+    return votes.parallelism > parallel_min && votes.deviation[1] > breadth_min * radius_ &&
            votes.deviation[2] < breadth_max * radius_;
   }
 
@@ -363,11 +366,10 @@ private:
     constexpr double rim = 1.1;  // radii
     constexpr double height_max = 0.3;
     constexpr double parallel_min = 0.95;
-    const Vector3d normal = disc.normal.normalized();
     const Vector3d way = voxel.mean() - disc.mean;
-    const double height = way.dot(normal);
-    return std::abs(height) < height_max * radius_ && (way - height * normal).norm() > rim * radius_ &&
-           voxel.normals.dot(normal) > parallel_min * static_cast<double>(voxel.points);
+    const double height = way.dot(disc.normal);
+    return std::abs(height) < height_max * radius_ && (way - height * disc.normal).norm() > rim * radius_ &&
+           voxel.normals.dot(disc.normal) > parallel_min * static_cast<double>(voxel.points);
   }
 
   const VoxelGrid& grid_;
