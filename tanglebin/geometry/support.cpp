@@ -56,6 +56,10 @@ std::vector<Eigen::AlignedBox3d> surely_solid_parts(const Support& support) {
   return parts;
 }
 
+bool holds_only_tubes(const Support& support) {
+  return support.shape == Support::Shape::bin && support.margin == 0;
+}
+
 void validate(const Support& support) {
   if (support.shape == Support::Shape::bin) validate(support.bin);
   if (!is_rigid(support.pose))

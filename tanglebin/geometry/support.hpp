@@ -34,6 +34,10 @@ std::vector<Eigen::AlignedBox3d> solid_parts(const Support& support);
 /// floor and walls are.
 std::vector<Eigen::AlignedBox3d> surely_solid_parts(const Support& support);
 
+/// Whether its shape is known so well that whatever is not part of it is a tube: a bin without a margin. On a
+/// plane, anything may lie; and a bin with ribs or bent walls may show more than its box.
+bool holds_only_tubes(const Support& support);
+
 /// Throws InputError naming the field under `support` unless a bin is valid as validate(Bin) has it, the pose
 /// is a rigid motion with finite numbers, and the margin is finite, not negative and at most 0.1 m.
 void validate(const Support& support);

@@ -44,6 +44,13 @@ TEST(Support, WithoutAMarginIsSolidForSureWhereItIsSolid) {
   }
 }
 
+TEST(Support, HoldsOnlyTubesIfItIsABinWhoseShapeIsKnownExactly) {
+  EXPECT_TRUE(holds_only_tubes({.shape = Support::Shape::bin}));
+  EXPECT_FALSE(holds_only_tubes({.shape = Support::Shape::bin, .margin = 0.001}));
+  EXPECT_FALSE(holds_only_tubes({.shape = Support::Shape::plane}));
+  EXPECT_FALSE(holds_only_tubes({.shape = Support::Shape::nothing}));
+}
+
 TEST(Support, OfAPlaneIsSolidWithoutBordersFromItsMarginOn) {
   const auto parts = surely_solid_parts({.shape = Support::Shape::plane, .margin = 0.003});
   constexpr double far = 1e6;

@@ -164,25 +164,36 @@ TEST(Diagnose, IsNotTroubledByTheTableThatTheBinStandsOn) {
   EXPECT_EQ(text_of(model.findings), "");
 }
 
-// Such as a rack: a rail beside the bin is no tube, and nobody has to explain it.
+// Such as a rack: a rail beside the bin is no tube, and nobody has to explain it. Nor is one that is higher
+// than the rim, but so far away that a tube would fall out of the bin.
 TEST(Diagnose, IsNotTroubledByWhatStandsBesideTheBin) {
   View view = right_view();
   const Bin& bin = view.scene.support.bin;
   const auto radius = static_cast<float>(view.scene.kinds.front().radius);
   const Model before = model_of(view);
   constexpr int points = 3'000;
-  for (int i = 0; i < points; ++i) {
-    const float along = static_cast<float>(i % 150) * 0.002F - 0.15F;
-    const float around = (static_cast<float>(i / 150) + 0.5F) / (points / 150) * 3.14F;
-    view.cloud.points.emplace_back(static_cast<float>(bin.length) / 2 + 0.1F + radius * std::cos(around),
-                                   along, 0.1F + radius * std::sin(around));
+  struct Rail {
+    float outside;  // m, from the wall's inner side
+    float height;   // m
+  };
+  for (const auto& [outside, height] : {Rail{0.1F, 0.1F}, Rail{0.3F, 0.25F}}) {
+    SCOPED_TRACE(testing::Message() << outside << " m outside, " << height << " m high");
+    View with_rail = view;
+    for (int i = 0; i < points; ++i) {
+      const float along = static_cast<float>(i % 150) * 0.002F - 0.15F;
+      const float around = (static_cast<float>(i / 150) + 0.5F) / (points / 150) * 3.14F;
+      with_rail.cloud.points.emplace_back(
+          static_cast<float>(bin.length) / 2 + outside + radius * std::cos(around), along,
+          height + radius * std::sin(around));
+    }
+    with_rail.cloud.width = with_rail.cloud.points.size();
+    const Model model = model_of(with_rail);
+    EXPECT_EQ(model.tubes.size(), before.tubes.size());
+    EXPECT_EQ(model.counts.unexplained, before.counts.unexplained);
+    EXPECT_EQ(model.counts.cropped + model.counts.outside_image,
+              before.counts.cropped + before.counts.outside_image + points);
+    EXPECT_EQ(text_of(model.findings), "");
   }
-  view.cloud.width = view.cloud.points.size();
-  const Model model = model_of(view);
-  EXPECT_EQ(model.tubes.size(), before.tubes.size());
-  EXPECT_EQ(model.counts.unexplained, before.counts.unexplained);
-  EXPECT_EQ(model.counts.cropped, before.counts.cropped + points);
-  EXPECT_EQ(text_of(model.findings), "");
 }
 
 TEST(Diagnose, CountsNoPointOfAThinNoisyFloorAsUnderIt) {

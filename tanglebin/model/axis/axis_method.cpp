@@ -98,10 +98,9 @@ std::size_t number_of_votes(const Voting& voting) {
   return sum;
 }
 
-// In a known bin, there is nothing but the bin. Elsewhere there may be anything, so that normals have to
-// tell.
+// Where there may be anything, normals have to tell.
 OtherSurfaces other_surfaces(const Voting& voting, const Support& support, std::size_t points) {
-  if (support.shape == Support::Shape::bin) return {support};
+  if (holds_only_tubes(support)) return {support};
   std::vector<Vector3f> normals(points, Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
   for (const AxisVotes& votes : voting.of_kinds) {
     for (std::size_t i = 0; i < voting.filtered.size(); ++i) {
@@ -155,12 +154,15 @@ KnownScene with_found_lengths(KnownScene known, const std::vector<AxisSteps>& ki
   return known;
 }
 
-// Whether a fragment can be of a tube that lies in the support, or on it: in a bin, where any of it is over
-// the floor or above the rim.
-bool is_in(const Support& support, const Fragment& fragment) {
+// Whether a fragment can be of a tube, up to this long (m), that lies in the support, or on it: in a bin,
+// where any of it is over the floor, or above the rim and not so far beyond the walls that the tube would
+// fall out.
+bool is_in(const Support& support, const Fragment& fragment, double length) {
   if (support.shape != Support::Shape::bin) return true;
+  const double outside = support.bin.wall + length / 2;
   return std::ranges::any_of(fragment.nodes, [&](const Eigen::Vector3d& node) {
-    return node.z() > support.bin.height || is_over_floor(support.bin, node);
+    return is_over_floor(support.bin, node) ||
+           (node.z() > support.bin.height && is_over_floor(support.bin, node, -outside));
   });
 }
 
@@ -179,10 +181,11 @@ std::vector<Fragment> fragments_in(const Support& support, const std::vector<Fra
 // Takes out the tubes, fragments and all, that have no part in the support: they are no tubes in it. One that
 // hangs over the rim stays whole. Returns true if there were any.
 bool drop_beside(const Support& support, AxisSteps& steps) {
+  const double length = steps.kind.length();
   std::vector<bool> is_beside(steps.fragments.size());
   for (const std::vector<std::size_t>& members : steps.tubes) {
     const bool is_inside = std::ranges::any_of(
-        members, [&](std::size_t member) { return is_in(support, steps.fragments[member]); });
+        members, [&](std::size_t member) { return is_in(support, steps.fragments[member], length); });
     for (const std::size_t member : members) is_beside[member] = !is_inside;
   }
   std::size_t number = 0;

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
+#include "tanglebin/geometry/bin.hpp"
+#include "tanglebin/geometry/capsule.hpp"
 #include "tanglebin/model/axis/fragments/fragments.hpp"
 #include "tanglebin/model/axis/links/beyond_ends.hpp"
 #include "tanglebin/model/axis/tube_fit.hpp"
@@ -40,7 +42,7 @@ bool looks_like_a_tube(const TubeSurface& surface, const Support& support) {
   constexpr double ovality_max = 0.3;
   constexpr double facing_min = 0.3;
   if (surface.ovality > ovality_max || surface.facing < facing_min) return false;
-  if (!surface.roundness) return support.shape == Support::Shape::plane;
+  if (!surface.roundness) return support.shape != Support::Shape::nothing;
   constexpr double least = 0.6;
   constexpr double most = 1.6;
   return *surface.roundness >= least && *surface.roundness <= most;
@@ -61,6 +63,29 @@ bool scatters_as_usual(const TubeCandidate& candidate, double usual) {
   constexpr double of_fit = 0.03;  // radii
   constexpr double factor_max = 2;
   return candidate.surface->scatter <= std::max(factor_max * usual, of_fit * candidate.tube.radius);
+}
+
+// Whether the axis of a tube that is here would be in the top of a wall.
+bool is_in_rim(const Support& support, double radius, const Eigen::Vector3d& place) {
+  const Bin& bin = support.bin;
+  const double reach = support.margin + radius;
+  const bool is_in_wall =
+      is_over_floor(bin, place, -(bin.wall + reach)) && !is_over_floor(bin, place, radius / 2);
+  return is_in_wall && place.z() > bin.height - reach && place.z() < bin.height + support.margin;
+}
+
+// A tube that lies on the rim is above it, and one in the bin beside it.
+bool lies_along_rim(const Tube& tube, const Support& support) {
+  constexpr double most = 0.8;  // of its length
+  double inside = 0;
+  for (const Capsule& piece : capsules(tube)) {
+    const Eigen::Vector3d way = piece.b - piece.a;
+    const int parts = static_cast<int>(std::ceil(way.norm() / tube.radius));
+    for (int i = 0; i < parts; ++i) {
+      if (is_in_rim(support, tube.radius, piece.a + (i + 0.5) / parts * way)) inside += way.norm() / parts;
+    }
+  }
+  return inside > most * total_length(tube);
 }
 
 void drop_unless(std::vector<std::vector<TubeCandidate>>& of_kinds, const auto& is_tube) {
@@ -114,13 +139,13 @@ std::optional<double> foreign_radius(const TubeCandidate& candidate, const std::
 std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
                                           const TubeKind& kind, const KnownScene& known,
                                           const AxisSettings& settings) {
-  const bool is_in_bin = known.support.shape == Support::Shape::bin;
+  const bool is_alone = holds_only_tubes(known.support);
   std::vector<TubeCandidate> candidates;
   for (const std::vector<std::size_t>& members : steps.tubes) {
     if (is_false_speck(steps, members, kind, settings.link)) continue;
     Tube tube = fit_tube(steps.fragments, members, steps.links, steps.chosen, points, kind, settings.fit);
     std::optional<TubeSurface> surface;
-    if (!is_in_bin) surface = surface_of(tube, steps.fragments, members, points, steps.votes, known.camera);
+    if (!is_alone) surface = surface_of(tube, steps.fragments, members, points, steps.votes, known.camera);
     std::vector<SeenRadius> seen =
         seen_radii(tube, steps.fragments, members, points, known.camera.pose.translation());
     candidates.push_back(
@@ -133,7 +158,10 @@ void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, con
   drop_unless(of_kinds, [](const TubeCandidate& candidate) {
     return !candidate.tube.flat_ends || total_length(candidate.tube) > candidate.tube.radius;
   });
-  if (support.shape == Support::Shape::bin) return;
+  if (holds_only_tubes(support)) return;
+  drop_unless(of_kinds, [&](const TubeCandidate& candidate) {
+    return support.shape != Support::Shape::bin || !lies_along_rim(candidate.tube, support);
+  });
   drop_unless(of_kinds,
               [&](const TubeCandidate& candidate) { return looks_like_a_tube(*candidate.surface, support); });
   const double usual = usual_scatter(of_kinds);

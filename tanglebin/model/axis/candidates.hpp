@@ -19,7 +19,7 @@ struct TubeCandidate {
   std::vector<std::size_t> fragments;  ///< indices into AxisSteps::fragments, ascending
   std::size_t points;                  ///< of the fragments
   Tube tube;
-  std::optional<TubeSurface> surface;  ///< none in a known bin, where nobody asks
+  std::optional<TubeSurface> surface;  ///< none where the support holds_only_tubes() and nobody asks
   std::vector<SeenRadius>
       seen{};  ///< of all its points, then of those of each fragment, as far as they show one
 };
@@ -36,9 +36,10 @@ std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vec
                                           const TubeKind& kind, const KnownScene& known,
                                           const AxisSettings& settings);
 
-/// In a known bin there are tubes. Elsewhere there may also be the rim of a bin, a box, or a pipe of quite
-/// another radius; and without a support walls, so that what shows too little to tell is no tube there. A
-/// ball is none either: an upright tube shows one if its ends are round.
+/// In a bin without a margin there are tubes. Elsewhere there may also be the rim of a bin, a box, or a pipe
+/// of quite another radius; and without a support walls, so that what shows too little to tell is no tube
+/// there. Nor is what lies along the rim of the known bin, however round that is. A ball is none either: an
+/// upright tube shows one if its ends are round.
 void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, const Support& support);
 
 /// Takes the tubes out that clearly show a radius, all along or in one of their fragments, that none of the

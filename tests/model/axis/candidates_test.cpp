@@ -77,5 +77,45 @@ TEST(Candidates, AreNotForeignWhereMostDoNotShowTheKnownRadius) {
   EXPECT_THAT(foreign_of({0.85, 0.86, 0.84, 0.76, 0.6}), IsEmpty());
 }
 
+// Whether there can be a tube on the way from one place to another, beside a bin that is known to 5 mm.
+bool may_be_a_tube(const std::vector<Eigen::Vector3d>& way) {
+  std::vector<std::vector<TubeCandidate>> of_kinds(1);
+  of_kinds[0].push_back(that_scatters_by(0));
+  of_kinds[0].back().tube = test::chain(1, test::radius, way);
+  Support support = test::paper_scene().support;
+  support.margin = 0.005;
+  drop_what_is_no_tube(of_kinds, support);
+  return !of_kinds[0].empty();
+}
+
+// A rim may be as round as a tube.
+TEST(Candidates, AreNoTubeIfTheyLieAlongTheRim) {
+  const Bin bin = test::paper_scene().support.bin;
+  const double in_wall = bin.width / 2 + bin.wall / 2;
+  const double inside = bin.width / 2 - test::radius;
+  for (const double side : {-1.0, 1.0}) {
+    const auto along = [&](double y, double z) {
+      return std::vector<Eigen::Vector3d>{{-0.2, side * y, z}, {0, side * y, z}, {0.2, side * y, z}};
+    };
+    EXPECT_FALSE(may_be_a_tube(along(in_wall, bin.height - test::radius)));
+    EXPECT_TRUE(may_be_a_tube(along(in_wall, bin.height + test::radius))) << "on the rim";
+    EXPECT_TRUE(may_be_a_tube(along(inside, bin.height - test::radius))) << "at the wall";
+    EXPECT_TRUE(may_be_a_tube(along(in_wall, bin.height / 2))) << "at a wall that is bent";
+  }
+  EXPECT_TRUE(may_be_a_tube({{0, 0, 0.1}, {0, in_wall, bin.height - test::radius}})) << "leans on a wall";
+}
+
+// A wall, which is flat, in a bin that is not exactly a box.
+TEST(Candidates, AreNoTubeInABinWithAMarginIfTheyAreNotRound) {
+  for (const double margin : {0.0, 0.005}) {
+    std::vector<std::vector<TubeCandidate>> of_kinds(1);
+    of_kinds[0].push_back(that_scatters_by(0));
+    of_kinds[0].push_back(that_scatters_by(0));
+    of_kinds[0].front().surface->roundness = 0;
+    drop_what_is_no_tube(of_kinds, {.shape = Support::Shape::bin, .margin = margin});
+    EXPECT_EQ(of_kinds[0].size(), margin > 0 ? 1U : 2U);
+  }
+}
+
 }  // namespace
 }  // namespace tanglebin
