@@ -8,31 +8,14 @@
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
+#include "tanglebin/geometry/axis_parts.hpp"
 #include "tanglebin/score/centre_line.hpp"
 #include "tanglebin/score/joins.hpp"
 
 namespace tanglebin {
 namespace {
 
-// A piece of a centre line, treated as a point.
-struct Sample {
-  Eigen::Vector3d point;
-  double length;  // m
-};
-
-// Cuts an axis into parts of at most 1 mm, but at most a thousand parts, so that tubes in millimetres by
-// mistake do not take a thousand times as long.
-std::vector<Sample> samples(const Capsule& axis) {
-  const double length = (axis.b - axis.a).norm();
-  // Slightly less, so that rounding does not add a part to a length of whole millimetres.
-  const int parts = static_cast<int>(std::min(std::ceil(length / 0.001 - 1e-6), 1000.0));
-  std::vector<Sample> samples;
-  samples.reserve(static_cast<std::size_t>(parts));
-  for (int part = 0; part < parts; ++part) {
-    samples.push_back({axis.a + (part + 0.5) / parts * (axis.b - axis.a), length / parts});
-  }
-  return samples;
-}
+constexpr double part_max = 0.001;  // m, of a centre line, treated as a point
 
 // The centre lines of the tubes that have edges.
 std::vector<CentreLine> centre_lines(const std::vector<Tube>& tubes) {
@@ -61,7 +44,7 @@ std::vector<Error> errors(const std::vector<CentreLine>& truth, const std::vecto
   std::vector<Error> errors;
   for (const Tube& tube : modelled) {
     for (const Capsule& axis : capsules(tube)) {
-      for (const auto& [point, length] : samples(axis)) {
+      for (const auto& [point, length] : axis_parts(axis, part_max)) {
         errors.push_back({distance_to_nearest(truth, point), length});
       }
     }
@@ -112,9 +95,9 @@ Coverage covered_part(const CentreLine& line, const std::vector<Capsule>& model)
   Coverage part{};
   for (const Capsule& axis : line.capsules()) {
     const std::vector<Capsule> candidates = near(model, axis, line.radius());
-    for (const Sample& sample : samples(axis)) {
+    for (const AxisPart& sample : axis_parts(axis, part_max)) {
       const bool is_covered = std::ranges::any_of(candidates, [&](const Capsule& candidate) {
-        return axis_distance(candidate, sample.point) <= line.radius();
+        return axis_distance(candidate, sample.middle) <= line.radius();
       });
       part.length += sample.length;
       if (is_covered) part.covered += sample.length;

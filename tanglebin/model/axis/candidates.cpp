@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
+#include "tanglebin/geometry/axis_parts.hpp"
 #include "tanglebin/geometry/bin.hpp"
 #include "tanglebin/geometry/capsule.hpp"
 #include "tanglebin/model/axis/fragments/fragments.hpp"
@@ -76,13 +77,12 @@ bool is_in_rim(const Support& support, double radius, const Eigen::Vector3d& pla
 
 // A tube that lies on the rim is above it, and one in the bin beside it.
 bool lies_along_rim(const Tube& tube, const Support& support) {
+  if (support.shape != Support::Shape::bin) return false;
   constexpr double most = 0.8;  // of its length
   double inside = 0;
   for (const Capsule& piece : capsules(tube)) {
-    const Eigen::Vector3d way = piece.b - piece.a;
-    const int parts = static_cast<int>(std::ceil(way.norm() / tube.radius));
-    for (int i = 0; i < parts; ++i) {
-      if (is_in_rim(support, tube.radius, piece.a + (i + 0.5) / parts * way)) inside += way.norm() / parts;
+    for (const AxisPart& part : axis_parts(piece, tube.radius)) {
+      if (is_in_rim(support, tube.radius, part.middle)) inside += part.length;
     }
   }
   return inside > most * total_length(tube);
@@ -139,13 +139,13 @@ std::optional<double> foreign_radius(const TubeCandidate& candidate, const std::
 std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
                                           const TubeKind& kind, const KnownScene& known,
                                           const AxisSettings& settings) {
-  const bool is_alone = holds_only_tubes(known.support);
   std::vector<TubeCandidate> candidates;
   for (const std::vector<std::size_t>& members : steps.tubes) {
     if (is_false_speck(steps, members, kind, settings.link)) continue;
     Tube tube = fit_tube(steps.fragments, members, steps.links, steps.chosen, points, kind, settings.fit);
     std::optional<TubeSurface> surface;
-    if (!is_alone) surface = surface_of(tube, steps.fragments, members, points, steps.votes, known.camera);
+    if (!holds_only_tubes(known.support))
+      surface = surface_of(tube, steps.fragments, members, points, steps.votes, known.camera);
     std::vector<SeenRadius> seen =
         seen_radii(tube, steps.fragments, members, points, known.camera.pose.translation());
     candidates.push_back(
@@ -159,9 +159,8 @@ void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, con
     return !candidate.tube.flat_ends || total_length(candidate.tube) > candidate.tube.radius;
   });
   if (holds_only_tubes(support)) return;
-  drop_unless(of_kinds, [&](const TubeCandidate& candidate) {
-    return support.shape != Support::Shape::bin || !lies_along_rim(candidate.tube, support);
-  });
+  drop_unless(of_kinds,
+              [&](const TubeCandidate& candidate) { return !lies_along_rim(candidate.tube, support); });
   drop_unless(of_kinds,
               [&](const TubeCandidate& candidate) { return looks_like_a_tube(*candidate.surface, support); });
   const double usual = usual_scatter(of_kinds);
