@@ -70,6 +70,9 @@ void bind_evidence(py::module_& module) {
           "length_fit", [](const TubeEvidence& evidence) { return name_of(evidence.length_fit); },
           doc::model::LengthFit)
       .def_readonly("confidence", &TubeEvidence::confidence, doc::model::TubeEvidence_confidence);
+  py::class_<EstimatedLength>(module, "EstimatedLength", doc::model::EstimatedLength)
+      .def_readonly("kind", &EstimatedLength::kind, doc::model::EstimatedLength_kind)
+      .def_readonly("length", &EstimatedLength::length, doc::model::EstimatedLength_length);
   py::class_<PointCounts>(module, "PointCounts", doc::model::PointCounts)
       .def_readonly("all", &PointCounts::all, "points of the cloud")
       .def_readonly("invalid", &PointCounts::invalid, doc::model::PointCounts_invalid)
@@ -110,6 +113,7 @@ void bind_model(py::module_& module) {
       .def_readonly("steps", &Model::steps, doc::model::Model_steps)
       .def_readonly("evidence", &Model::evidence, doc::model::Model_evidence)
       .def_readonly("foreign_radii", &Model::foreign_radii, doc::model::Model_foreign_radii)
+      .def_readonly("estimated_lengths", &Model::estimated_lengths, doc::model::Model_estimated_lengths)
       .def_readonly("counts", &Model::counts, doc::model::PointCounts)
       .def_readonly("findings", &Model::findings, doc::model::Model_findings)
       .def_property_readonly("is_refused", &Model::is_refused, doc::model::Model_is_refused);

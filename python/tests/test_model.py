@@ -1,4 +1,5 @@
 import json
+import math
 import pickle
 
 import numpy as np
@@ -44,11 +45,19 @@ def test_a_model_says_how_sure_it_is(model, cloud):
         assert evidence.length == pytest.approx(0.5, abs=0.05) and evidence.residual < 0.002
         for join in evidence.joins:
             assert isinstance(join, tanglebin.TubeJoin) and join.from_point.shape == join.to_point.shape == (3,)
-    assert model.foreign_radii == []
+    assert model.foreign_radii == [] and model.estimated_lengths == []
     assert isinstance(model.counts, tanglebin.PointCounts) and model.counts.all == len(cloud)
     assert model.counts.on_tubes == (model.labels > 0).sum()
     assert all(isinstance(step, tanglebin.Step) and step.seconds >= 0 for step in model.steps)
     assert len(json.loads(tanglebin.tubes_json(model))["tubes"]) == 3
+
+
+def test_a_model_says_which_length_it_found(cloud):
+    of_any_length = tanglebin.TubeKind(0.0125, [tanglebin.Segment(1, 2, math.inf)])
+    known = tanglebin.KnownScene(tanglebin.Support(), tanglebin.camera_preset("paper"), [of_any_length])
+    [estimate] = tanglebin.model_tubes(cloud, known).estimated_lengths
+    assert isinstance(estimate, tanglebin.EstimatedLength)
+    assert estimate.kind == 0 and estimate.length == pytest.approx(0.5, abs=0.02)
 
 
 def test_a_cloud_that_cannot_be_of_this_scene_is_refused_with_findings(cloud, known):

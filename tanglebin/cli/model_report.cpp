@@ -98,6 +98,8 @@ std::vector<std::pair<std::string, std::string>> contents(const ModelFiles& file
 
 void print_tubes(const Model& model) {
   print_counts(model.counts);
+  for (const EstimatedLength& estimate : model.estimated_lengths)
+    print_out("the length is estimated: {:.3f} m\n", estimate.length);
   if (model.tubes.empty()) return;
   print_out("{:>4} {:>10} {:>8} {:>9} {:>9} {:>5} {:>7} {:>9} {:>6} {:>12}\n", "tube", "confidence", "radius",
             "length", "", "seen", "points", "residual", "joins", "weakest join");
@@ -115,6 +117,7 @@ void add_tubes(nlohmann::ordered_json& json, const Model& model) {
   json["usable"] = all["usable"];
   json["counts"] = all["points"];
   json["findings"] = all["findings"];
+  json["estimated_lengths"] = all["estimated_lengths"];
   json["found"] = all["tubes"];
 }
 

@@ -243,10 +243,13 @@ private:
     constexpr double scatters = 1.7;  // noise makes tubes look thicker by 1.5 times their scatter at most
     const bool look_thin = error && *error < -tolerance;
     const std::optional<double> other = is_most_unexplained() || look_thin ? other_radius() : std::nullopt;
-    if (other) {
-      warn("radius", fmt::format("{} no tube of radius {}; they look like tubes of radius {}",
-                                 is_most_unexplained() ? "most points are on" : "the points fit", radii(),
-                                 millimetres(*other)));
+    if (other && is_most_unexplained()) {
+      warn("radius", fmt::format("most points are on no tube of radius {}; they look like tubes of radius {}",
+                                 radii(), millimetres(*other)));
+    } else if (other) {
+      warn("radius", fmt::format("the tubes look like tubes of radius {}, not {}: is the radius right, and "
+                                 "the cloud's scale?",
+                                 millimetres(*other), radii()));
     } else if (error && std::abs(*error) > std::max(tolerance, scatters * *scatter())) {
       warn("radius",
            fmt::format("the tubes look {:.0f} % {} than their radius of {}: is it right? --radius auto "

@@ -64,6 +64,9 @@ std::string tubes_json(const Model& model) {
   json["points"] = json_of(model.counts);
   json["findings"] = Json::array();
   for (const Finding& finding : model.findings) json["findings"].push_back(json_of(finding));
+  json["estimated_lengths"] = Json::array();
+  for (const auto& [kind, length] : model.estimated_lengths)
+    json["estimated_lengths"].push_back({{"kind", kind}, {"length", length}});
   json["tubes"] = Json::array();
   for (std::size_t i = 0; i < model.tubes.size(); ++i) {
     json["tubes"].push_back(json_of(model.tubes[i], model.evidence[i]));

@@ -268,7 +268,8 @@ void find_kinds(const Scene& scene, const std::function<void()>& at_place, Resol
       const RadiusEstimate found = radius_from(resolved.cloud, resolved.known, tubes.radius, at_place);
       kind.radius = found.radius;
       resolved.notes.push_back(
-          fmt::format("the radius is estimated: {:.5f} m, to {:.5f} m", found.radius, found.standard_error));
+          fmt::format("the radius is estimated: {:.5f} m, ± {:.5f} m and the error of the sensor's scale",
+                      found.radius, found.standard_error));
     }
     resolved.known.kinds.push_back(kind);
   }

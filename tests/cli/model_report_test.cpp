@@ -16,6 +16,7 @@ namespace {
 using test::ProgramResult;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Two tubes that cross, scanned.
 class ModelReport : public testing::Test {
@@ -75,6 +76,21 @@ TEST_F(ModelReport, SaysTheSameInItsOwnJson) {
   EXPECT_EQ(printed.at("counts"), written.at("points"));
   EXPECT_EQ(printed.at("findings"), written.at("findings"));
   EXPECT_EQ(printed.at("tubes"), 2);
+}
+
+TEST_F(ModelReport, SaysWhichLengthItFound) {
+  const PointCloud three =
+      test::scanned({test::straight_tube(1, -0.1), test::straight_tube(2, 0), test::straight_tube(3, 0.1)});
+  const std::string to_json = " --modelled-tubes " + path("tubes.json");
+  const ProgramResult run = model(three, "--length unknown" + to_json);
+  EXPECT_THAT(run.out, HasSubstr("\nthe length is estimated: 0."));
+  const auto json = nlohmann::json::parse(test::bytes_of(directory_ / "tubes.json"));
+  ASSERT_EQ(json.at("estimated_lengths").size(), 1U);
+  EXPECT_EQ(json.at("estimated_lengths")[0].at("kind"), 0);
+  EXPECT_NEAR(json.at("estimated_lengths")[0].at("length"), 0.5, 0.01);
+  EXPECT_EQ(nlohmann::json::parse(model(three, "--length unknown --json").out).at("estimated_lengths"),
+            json.at("estimated_lengths"));
+  EXPECT_THAT(model(three, "").out, Not(HasSubstr("estimated")));
 }
 
 TEST_F(ModelReport, WritesTheSurfacesOfTheTubes) {

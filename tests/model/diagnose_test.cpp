@@ -307,7 +307,7 @@ TEST(Diagnose, NamesTheRadiusOfTubesThatLookTooThin) {
   for (TubeEvidence& tube : model.evidence) tube.radius_error = -0.1 * scene.kinds[0].radius;
   for (Tube& tube : model.tubes) tube.radius = scene.kinds[0].radius;
   EXPECT_THAT(text_of(diagnose(view.cloud, scene, model, 1)),
-              HasSubstr("the points fit no tube of radius 25 mm; they look like tubes of radius 12.5 mm"));
+              HasSubstr("the tubes look like tubes of radius 12.5 mm, not 25 mm: is the radius right"));
 }
 
 TEST(Diagnose, NamesTheRadiiOfForeignTubes) {

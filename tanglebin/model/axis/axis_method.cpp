@@ -146,11 +146,19 @@ void label(Model& model, std::vector<std::int32_t> claimed, const std::vector<Ax
       model.labels, [&](std::int32_t label) { return label > static_cast<std::int32_t>(known); }, null_label);
 }
 
-// What is known, with the lengths that were found for sure where none was known.
-KnownScene with_found_lengths(KnownScene known, const std::vector<AxisSteps>& kinds) {
+// The lengths that were found for sure where none was known.
+std::vector<EstimatedLength> estimated_lengths(const KnownScene& known, const std::vector<AxisSteps>& kinds) {
+  std::vector<EstimatedLength> lengths;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
-    if (!known.kinds[i].length_is_known() && kinds[i].kind.length_min > 0) known.kinds[i] = kinds[i].kind;
+    if (!known.kinds[i].length_is_known() && kinds[i].kind.length_min > 0)
+      lengths.push_back({i, kinds[i].kind.length()});
   }
+  return lengths;
+}
+
+KnownScene with_lengths(KnownScene known, const std::vector<EstimatedLength>& lengths) {
+  for (const auto& [kind, length] : lengths)
+    known.kinds[kind].segments[0].length = known.kinds[kind].length_min = length;
   return known;
 }
 
@@ -252,7 +260,8 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
                  static_cast<std::size_t>(std::ranges::count_if(
                      model.labels, [](std::int32_t label) { return label > bin_label; })),
                  "points");
-  weigh(model, scan.cloud, with_found_lengths(known, result.kinds));
+  model.estimated_lengths = estimated_lengths(known, result.kinds);
+  weigh(model, scan.cloud, with_lengths(known, model.estimated_lengths));
   return result;
 }
 

@@ -20,6 +20,12 @@ struct Step {
   std::string of;     ///< what the items are: "points", "clusters", …
 };
 
+/// The length of a kind of tubes for which none was told.
+struct EstimatedLength {
+  std::size_t kind;  ///< index into KnownScene::kinds
+  double length;     ///< m
+};
+
 /// The tubes found in a cloud.
 struct Model {
   std::vector<Tube> tubes;            ///< ids 1, 2, …; mass 0 (unknown)
@@ -28,6 +34,8 @@ struct Model {
   std::vector<Step> steps;            ///< in the order in which they ran
   std::vector<TubeEvidence> evidence{};  ///< for each tube: how sure it is
   std::vector<double> foreign_radii{};   ///< m, of each tube that no kind has the radius of: left unexplained
+  std::vector<EstimatedLength>
+      estimated_lengths{};  ///< of the kinds whose length was not told, but stands out
   PointCounts counts{};
   std::vector<Finding> findings{};  ///< what does not fit: errors, then warnings; empty if all is well
 

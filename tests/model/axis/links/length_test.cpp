@@ -45,6 +45,18 @@ TEST(WithLength, CountsAsKnownIfThreeTubesAgree) {
     EXPECT_EQ(evidence.length_fit, LengthFit::unknown);
 }
 
+TEST(WithLength, IsSaidOfEachKindWhoseLengthWasFound) {
+  const std::vector<EstimatedLength> found =
+      modelled_with(two_in_line(), 0, infinite).model.estimated_lengths;
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, 0U);
+  EXPECT_NEAR(found[0].length, 0.24, 0.005);
+  EXPECT_TRUE(modelled_with(two_in_line(), 0.24, 0.24).model.estimated_lengths.empty());
+  std::vector<Tube> too_few = two_in_line();
+  too_few.resize(2);
+  EXPECT_TRUE(modelled_with(too_few, 0, infinite).model.estimated_lengths.empty());
+}
+
 TEST(WithLength, IsTheLargestOfARange) {
   EXPECT_EQ(modelled_with(two_in_line(), 0.1, 0.3).kinds[0].kind.length(), 0.3);
 }
