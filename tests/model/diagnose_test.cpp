@@ -236,10 +236,13 @@ TEST(Diagnose, WhatTheCameraCannotHaveSeenIsNullEvenOnTheBin) {
   View view = right_view();
   view.scene.camera.width /= 2;  // sees the left half
   const Model model = model_of(view);
+  std::size_t on_bin = 0;
   for (std::size_t i = 0; i < model.labels.size(); ++i) {
     const bool is_seen = pixel_of(view.scene.camera, view.cloud.points[i].cast<double>()).has_value();
     EXPECT_TRUE(is_seen || model.labels[i] == null_label);
+    on_bin += model.labels[i] == bin_label ? 1 : 0;
   }
+  EXPECT_GT(on_bin, model.labels.size() / 10);
 }
 
 // Of half the size, so that the backs of the tubes are less than 20 mm above the plane.

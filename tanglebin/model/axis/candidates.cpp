@@ -16,13 +16,13 @@
 namespace tanglebin {
 namespace {
 
-bool is_false_speck(const AxisSteps& steps, const std::vector<std::size_t>& members, const TubeKind& kind,
+// `usual` is points_on_a_radius() of the fragments.
+bool is_false_speck(const AxisSteps& steps, const std::vector<std::size_t>& members, double usual,
                     const LinkSettings& settings) {
   // Points of a piece that is so long, in radii.
   constexpr double nothing = 0.5;
   constexpr double ball = 2;
-  const double seen = static_cast<double>(number_of_points(steps.fragments, members)) /
-                      points_on_a_radius(steps.fragments, kind.radius);
+  const double seen = static_cast<double>(number_of_points(steps.fragments, members)) / usual;
   if (seen < nothing) return true;
   if (seen > ball) return false;
   double length = 0;
@@ -34,7 +34,7 @@ bool is_false_speck(const AxisSteps& steps, const std::vector<std::size_t>& memb
   for (const std::size_t i : steps.chosen) {
     if (std::ranges::binary_search(members, steps.links[i].fragment)) length += steps.links[i].gap;
   }
-  return unseen_length(length, hidden, kind, settings) > 0;
+  return unseen_length(length, hidden, steps.kind, settings) > 0;
 }
 
 // The surface is a tube's, as far as one tube can tell. On two sides of a box, the distances from the axis
@@ -137,12 +137,13 @@ std::optional<double> foreign_radius(const TubeCandidate& candidate, const std::
 }  // namespace
 
 std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
-                                          const TubeKind& kind, const KnownScene& known,
-                                          const AxisSettings& settings) {
+                                          const KnownScene& known, const AxisSettings& settings) {
+  const double usual = points_on_a_radius(steps.fragments, steps.kind.radius);
   std::vector<TubeCandidate> candidates;
   for (const std::vector<std::size_t>& members : steps.tubes) {
-    if (is_false_speck(steps, members, kind, settings.link)) continue;
-    Tube tube = fit_tube(steps.fragments, members, steps.links, steps.chosen, points, kind, settings.fit);
+    if (is_false_speck(steps, members, usual, settings.link)) continue;
+    Tube tube =
+        fit_tube(steps.fragments, members, steps.links, steps.chosen, points, steps.kind, settings.fit);
     std::optional<TubeSurface> surface;
     if (!holds_only_tubes(known.support))
       surface = surface_of(tube, steps.fragments, members, points, steps.votes, known.camera);

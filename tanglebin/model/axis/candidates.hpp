@@ -33,8 +33,7 @@ struct ForeignTube {
 /// Fits a tube to each set of fragments in `steps.tubes`, but for specks: of these next to nothing is seen;
 /// or no more than of a ball, and the rest should have been seen.
 std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
-                                          const TubeKind& kind, const KnownScene& known,
-                                          const AxisSettings& settings);
+                                          const KnownScene& known, const AxisSettings& settings);
 
 /// In a bin without a margin there are tubes. Elsewhere there may also be the rim of a bin, a box, or a pipe
 /// of quite another radius; and without a support walls, so that what shows too little to tell is no tube

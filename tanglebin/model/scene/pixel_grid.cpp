@@ -60,7 +60,8 @@ PixelGrid::PixelGrid(const std::vector<Eigen::Vector3f>& points, const Camera& c
 }
 
 double PixelGrid::pixels_across(double length, const Eigen::Vector3f& point) const {
-  return length * std::max(camera_.fx, camera_.fy) / depth_of(camera_, point.cast<double>());
+  constexpr double most = 1e6;
+  return std::min(most, length * std::max(camera_.fx, camera_.fy) / depth_of(camera_, point.cast<double>()));
 }
 
 }  // namespace tanglebin

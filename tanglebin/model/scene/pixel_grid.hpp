@@ -79,7 +79,7 @@ public:
     return window;
   }
 
-  /// The size in pixels of a length (m) at a point.
+  /// The size in pixels of a length (m) at a point; at most a million, which is more than any image has.
   double pixels_across(double length, const Eigen::Vector3f& point) const;
 
 private:

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "tanglebin/base/random.hpp"
@@ -46,6 +47,8 @@ TEST(PixelGrid, KnowsHowWideALengthAppears) {
   const PixelGrid grid({}, small_camera());
   EXPECT_NEAR(grid.pixels_across(0.01, {0, 0, 0}), 5, 1e-9);
   EXPECT_NEAR(grid.pixels_across(0.01, {0.03F, 0, 1}), 10, 1e-6);
+  const Eigen::Vector3f at_the_camera(0, 0, std::nextafter(2.0F, 0.0F));
+  EXPECT_LE(grid.pixels_across(1, at_the_camera), 1e6);
 }
 
 TEST(PixelGrid, HoldsEveryPointOnceWhereItProjects) {

@@ -1,5 +1,6 @@
 #include "tanglebin/model/axis/links/length.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,10 @@
 
 namespace tanglebin {
 namespace {
+
+using testing::AllOf;
+using testing::Each;
+using testing::SizeIs;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -38,11 +43,12 @@ TEST(WithLength, IsThatOfTheTubesSeenFromEndToEnd) {
 
 TEST(WithLength, CountsAsKnownIfThreeTubesAgree) {
   std::vector<Tube> tubes = two_in_line();
-  for (const TubeEvidence& evidence : modelled_with(tubes, 0, infinite).model.evidence)
-    EXPECT_EQ(evidence.length_fit, LengthFit::complete);
+  const auto has_fit = [](LengthFit fit) { return testing::Field(&TubeEvidence::length_fit, fit); };
+  EXPECT_THAT(modelled_with(tubes, 0, infinite).model.evidence,
+              AllOf(SizeIs(4), Each(has_fit(LengthFit::complete))));
   tubes.resize(2);
-  for (const TubeEvidence& evidence : modelled_with(tubes, 0, infinite).model.evidence)
-    EXPECT_EQ(evidence.length_fit, LengthFit::unknown);
+  EXPECT_THAT(modelled_with(tubes, 0, infinite).model.evidence,
+              AllOf(SizeIs(2), Each(has_fit(LengthFit::unknown))));
 }
 
 TEST(WithLength, IsSaidOfEachKindWhoseLengthWasFound) {
