@@ -5,17 +5,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
 #include "tanglebin/base/stride.hpp"
-#include "tanglebin/geometry/labels.hpp"
+#include "tanglebin/model/floor_check.hpp"
 #include "tanglebin/model/rim_check.hpp"
 
 namespace tanglebin {
@@ -289,19 +287,18 @@ std::optional<Finding> doubt_of_rim(const PointCloud& cloud, const KnownScene& k
                              percent(cells.found), percent(cells.seen_past), percent(cells.empty)));
 }
 
-/// The points on the floor, in the solid and under a bin, m, in the support's frame.
+/// The points in the solid and under a bin, m, in the support's frame.
 struct SupportContact {
   std::size_t looked_at = 0;
-  std::vector<double> near_floor;  ///< heights over it, of what is on no tube
-  std::vector<double> inside;      ///< how deep in floor or walls
-  std::vector<double> under;       ///< how deep below the inside of a bin, and not in its floor
+  std::vector<double> inside;  ///< how deep in floor or walls
+  std::vector<double> under;   ///< how deep below the inside of a bin, and not in its floor
 
   double share_of(const std::vector<double>& points) const {
     return static_cast<double>(points.size()) / static_cast<double>(std::max<std::size_t>(1, looked_at));
   }
 };
 
-SupportContact contact_of(const PointCloud& cloud, const KnownScene& known, const Model& model) {
+SupportContact contact_of(const PointCloud& cloud, const KnownScene& known) {
   const Support& support = known.support;
   const Eigen::Isometry3d to_support = support.pose.inverse(Eigen::Isometry);
   const std::vector<Eigen::AlignedBox3d> parts = solid_parts(support);
@@ -315,8 +312,6 @@ SupportContact contact_of(const PointCloud& cloud, const KnownScene& known, cons
     const bool is_above_it =
         support.shape == Support::Shape::plane || is_over_floor(support.bin, point, reach);
     ++contact.looked_at;
-    const bool is_on_tube = model.labels[i] > bin_label;
-    if (is_above_it && !is_on_tube && std::abs(point.z()) < reach) contact.near_floor.push_back(point.z());
     for (const Eigen::AlignedBox3d& part : parts) {
       const double depth = std::min((point - part.min()).minCoeff(), (part.max() - point).minCoeff());
       if (depth > 0) contact.inside.push_back(depth);
@@ -325,32 +320,6 @@ SupportContact contact_of(const PointCloud& cloud, const KnownScene& known, cons
       contact.under.push_back(-point.z());
   }
   return contact;
-}
-
-// Where most of the heights are, to within their scatter.
-std::optional<double> peak_of(const std::vector<double>& heights) {
-  constexpr std::size_t least = 200;
-  if (heights.size() < least) return std::nullopt;
-  constexpr double step = 0.001;  // m
-  std::map<int, std::size_t> counts;
-  for (const double height : heights) ++counts[static_cast<int>(std::lround(height / step))];
-  const auto highest = std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
-  const double peak = highest->first * step;
-  std::vector<double> around;
-  for (const double height : heights) {
-    if (std::abs(height - peak) < 2 * step) around.push_back(height);
-  }
-  if (4 * around.size() < heights.size()) return std::nullopt;
-  return median(std::move(around));
-}
-
-std::optional<Finding> doubt_of_floor(const SupportContact& contact, const Support& support) {
-  const std::optional<double> height = peak_of(contact.near_floor);
-  constexpr double tolerance = 0.0025;
-  if (!height || std::abs(*height) <= tolerance + support.margin) return std::nullopt;
-  return warning("floor",
-                 fmt::format("the floor is {:.1f} mm {} where the scene has it: the support's pose is off",
-                             1000 * std::abs(*height), *height > 0 ? "above" : "below"));
 }
 
 constexpr double out_of_place_max = 0.02;  // share of the points
@@ -397,8 +366,8 @@ std::vector<Finding> doubts_of_support(const PointCloud& cloud, const KnownScene
   const auto add = [&](const std::optional<Finding>& doubt) {
     if (doubt) doubts.push_back(*doubt);
   };
-  const SupportContact contact = contact_of(cloud, known, model);
-  add(doubt_of_floor(contact, support));
+  const SupportContact contact = contact_of(cloud, known);
+  add(doubt_of_floor_height(cloud, known, model));
   add(doubt_of_solid(contact, support));
   add(doubt_of_depth(contact));
   // A cloud of the tubes alone has no rim.
