@@ -37,14 +37,39 @@ nlohmann::ordered_json rows_of(const Eigen::Isometry3d& pose) {
   return rows;
 }
 
+// A plane leaves its x, its y and its turn about z open: these have no standard deviation.
+bool is_determined(const Located& located, bool is_position, int axis) {
+  return located.support.shape == Support::Shape::bin || is_position == (axis == 2);
+}
+
+nlohmann::ordered_json json_of_sd(const Located& located, bool is_position, const Eigen::Vector3d& sd) {
+  nlohmann::ordered_json values = nlohmann::ordered_json::array();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (is_determined(located, is_position, axis)) {
+      values.push_back(sd[axis]);
+    } else {
+      values.push_back(nullptr);
+    }
+  }
+  return values;
+}
+
+std::string text_of_sd(const Located& located, bool is_position, const Eigen::Vector3d& sd, int digits) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string value =
+        is_determined(located, is_position, axis) ? fmt::format("{:.{}f}", sd[axis], digits) : "-";
+    text += fmt::format(" {:>9}", value);
+  }
+  return text;
+}
+
 void print_json(const LocatedScene& found) {
   const Located& located = found.located;
-  const Eigen::Vector3d position = located.position_sd / millimetre;
-  const Eigen::Vector3d rotation = located.rotation_sd / degree;
   nlohmann::ordered_json json{{"shape", name_of(located.support.shape)},
                               {"support_to_world", rows_of(located.support.pose)},
-                              {"position_sd_mm", {position.x(), position.y(), position.z()}},
-                              {"rotation_sd_deg", {rotation.x(), rotation.y(), rotation.z()}},
+                              {"position_sd_mm", json_of_sd(located, true, located.position_sd / millimetre)},
+                              {"rotation_sd_deg", json_of_sd(located, false, located.rotation_sd / degree)},
                               {"residual_mm", located.residual / millimetre},
                               {"explained", located.explained},
                               {"contradicted", located.contradicted}};
@@ -52,7 +77,8 @@ void print_json(const LocatedScene& found) {
     json["measured"] = {{"length", located.measured.length},
                         {"width", located.measured.width},
                         {"height", located.measured.height},
-                        {"wall", located.measured.wall}};
+                        {"wall", nullptr}};
+    if (located.is_wall_measured) json["measured"]["wall"] = located.measured.wall;
   }
   for (const LocatedPart& part : located.parts)
     json["parts"].push_back(
@@ -65,24 +91,23 @@ void print_json(const LocatedScene& found) {
 void print_table(const Located& located, bool wall_is_given) {
   const Eigen::Vector3d position = located.support.pose.translation();
   const Eigen::Quaterniond rotation(located.support.pose.linear());
-  const Eigen::Vector3d position_sd = located.position_sd / millimetre;
-  const Eigen::Vector3d rotation_sd = located.rotation_sd / degree;
   print_out("position   {:>9.4f} {:>9.4f} {:>9.4f} m\n", position.x(), position.y(), position.z());
-  print_out("  ±        {:>9.2f} {:>9.2f} {:>9.2f} mm along the support's x, y, z\n", position_sd.x(),
-            position_sd.y(), position_sd.z());
+  print_out("  ±       {} mm along the support's x, y, z\n",
+            text_of_sd(located, true, located.position_sd / millimetre, 2));
   print_out("quaternion {:>9.5f} {:>9.5f} {:>9.5f} {:>9.5f} (w x y z)\n", rotation.w(), rotation.x(),
             rotation.y(), rotation.z());
-  print_out("  ±        {:>9.3f} {:>9.3f} {:>9.3f} degrees about the support's x, y, z\n", rotation_sd.x(),
-            rotation_sd.y(), rotation_sd.z());
+  print_out("  ±       {} degrees about the support's x, y, z\n",
+            text_of_sd(located, false, located.rotation_sd / degree, 3));
   print_out("residual   {:>9.2f} mm\n", located.residual / millimetre);
   print_out("points     {:>9.1f} % on the support, {:.1f} % behind it\n", 100 * located.explained,
             100 * located.contradicted);
   if (located.support.shape == Support::Shape::bin) {
     const Bin& measured = located.measured;
     const Bin& given = located.support.bin;
-    print_out("sizes      {:.4f} x {:.4f} x {:.4f} m, wall {:.4f} m; given {} x {} x {} m{}\n",
-              measured.length, measured.width, measured.height, measured.wall, given.length, given.width,
-              given.height, wall_is_given ? fmt::format(", wall {} m", given.wall) : "");
+    print_out("sizes      {:.4f} x {:.4f} x {:.4f} m{}; given {} x {} x {} m{}\n", measured.length,
+              measured.width, measured.height,
+              located.is_wall_measured ? fmt::format(", wall {:.4f} m", measured.wall) : "", given.length,
+              given.width, given.height, wall_is_given ? fmt::format(", wall {} m", given.wall) : "");
   }
   for (const LocatedPart& part : located.parts)
     print_out("{:<24} {:>6} points  {:.2f} mm\n", part.name, part.points, part.noise / millimetre);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -30,19 +31,42 @@ protected:
     PointCloud cloud = test::scanned({test::straight_tube(1, 0.05)});
     const Eigen::Isometry3d to_camera = camera_.pose.inverse(Eigen::Isometry);
     for (Eigen::Vector3f& point : cloud.points) point = (to_camera * point.cast<double>()).cast<float>();
-    std::ostringstream out;
-    write_ply(out, cloud);
-    test::write_bytes(directory_ / "scan.ply", out.str());
+    write_cloud(cloud);
     write_scene_of(0.55);
   }
 
   void write_scene_of(double length) const {
+    write_scene_with(
+        fmt::format("shape = \"bin\"\nlength = {}\nwidth = 0.37\nheight = 0.2\nwall = 0.02\n", length));
+  }
+  void write_scene_with(const std::string& support) const {
     test::write_bytes(
         directory_ / "scene.toml",
         fmt::format("[camera]\nwidth = {}\nheight = {}\nfx = {}\nfy = {}\ncx = {}\ncy = {}\n"
-                    "frame = \"camera\"\nunit = \"m\"\n\n[support]\nshape = \"bin\"\nlength = {}\n"
-                    "width = 0.37\nheight = 0.2\nwall = 0.02\n\n[[tube]]\nradius = 0.0125\nlength = 0.5\n",
-                    camera_.width, camera_.height, camera_.fx, camera_.fy, camera_.cx, camera_.cy, length));
+                    "frame = \"camera\"\nunit = \"m\"\n\n[support]\n{}\n"
+                    "[[tube]]\nradius = 0.0125\nlength = 0.5\n",
+                    camera_.width, camera_.height, camera_.fx, camera_.fy, camera_.cx, camera_.cy, support));
+  }
+  // Puts a table level with the rim around the bin: nothing shows how thick its walls are.
+  void hide_outsides_of_walls() const {
+    PointCloud cloud = read_ply(path("scan.ply"));
+    const Bin bin = bin_preset("paper");
+    for (int v = 0; v < camera_.height; ++v) {
+      for (int u = 0; u < camera_.width; ++u) {
+        const Ray ray = ray_through(camera_, u, v);
+        const Eigen::Vector3d point =
+            ray.origin + (bin.height - ray.origin.z()) / ray.direction.z() * ray.direction;
+        if (std::abs(point.x()) > bin.length / 2 + bin.wall || std::abs(point.y()) > bin.width / 2 + bin.wall)
+          cloud.points.emplace_back((camera_.pose.inverse(Eigen::Isometry) * point).cast<float>());
+      }
+    }
+    write_cloud(cloud);
+  }
+  void write_cloud(PointCloud cloud) const {
+    cloud = test::cloud_of(cloud.points);
+    std::ostringstream out;
+    write_ply(out, cloud);
+    test::write_bytes(directory_ / "scan.ply", out.str());
   }
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
   ProgramResult locate(const std::string& options) const {
@@ -73,6 +97,31 @@ TEST_F(LocateCommand, PrintsJson) {
   EXPECT_NEAR(json["measured"]["length"].get<double>(), 0.55, 0.001);
   EXPECT_GT(json["explained"].get<double>(), 0.9);
   EXPECT_TRUE(json.at("notes").empty());  // frame and unit are told
+}
+
+TEST_F(LocateCommand, PrintsTheWallOnlyIfItIsSeen) {
+  EXPECT_THAT(locate("").out, HasSubstr("m, wall 0.0"));
+  EXPECT_TRUE(nlohmann::json::parse(locate("--json").out)["measured"]["wall"].is_number());
+  hide_outsides_of_walls();
+  write_scene_with("shape = \"bin\"\nlength = 0.55\nwidth = 0.37\nheight = 0.2\n");
+  const ProgramResult run = locate("");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("how thick the walls are is not seen"));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("sizes "), testing::Not(HasSubstr("wall 0."))));
+  EXPECT_TRUE(nlohmann::json::parse(locate("--json").out)["measured"].at("wall").is_null());
+}
+
+TEST_F(LocateCommand, SaysWhichPartsOfAPoseAPlaneLeavesOpen) {
+  write_scene_with("shape = \"plane\"\n");
+  const ProgramResult run = locate("");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, testing::ContainsRegex("±  +- +- +[0-9.]+ mm along"));
+  EXPECT_THAT(run.out, testing::ContainsRegex("±  +[0-9.]+ +[0-9.]+ +- degrees about"));
+  const nlohmann::json json = nlohmann::json::parse(locate("--json").out);
+  const nlohmann::json& position = json.at("position_sd_mm");
+  const nlohmann::json& rotation = json.at("rotation_sd_deg");
+  EXPECT_TRUE(position[0].is_null() && position[1].is_null() && position[2].is_number()) << position;
+  EXPECT_TRUE(rotation[0].is_number() && rotation[1].is_number() && rotation[2].is_null()) << rotation;
 }
 
 TEST_F(LocateCommand, SaysWhyABinIsNotFound) {
