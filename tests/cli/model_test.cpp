@@ -210,6 +210,25 @@ TEST_F(ModelCommand, LeavesNothingBehindWhereAnOutputCannotBeWritten) {
   }
 }
 
+TEST_F(ModelCommand, DoesNotOverwriteADatasetsFiles) {
+  const std::string recipe = test::recipe_text({.seed = 3, .width = 480, .tubes = "[1]", .cases = 1});
+  ASSERT_EQ(run_program("generate - --out " + path("dataset"), recipe).status, 0);
+  std::filesystem::create_directory_symlink("dataset/A1", directory_ / "link");
+  const auto write_to = [&](const std::string& out) {
+    return run_program("model " + path("scan.ply") + paper + " --out " + path(out));
+  };
+  const std::string before = test::bytes_of(path("dataset/A1/plys/1.ply"));
+  for (const std::string out : {"dataset/A1/plys/1.ply", "link/plys/1.ply"}) {
+    const ProgramResult run = write_to(out);
+    EXPECT_EQ(run.status, 2) << out;
+    EXPECT_THAT(run.err,
+                AllOf(HasSubstr("--out: found '"), HasSubstr("which is a file of a dataset, expected")));
+  }
+  EXPECT_EQ(run_program("locate " + path("scan.ply") + " --out " + path("dataset/recipe.toml")).status, 2);
+  EXPECT_EQ(test::bytes_of(path("dataset/A1/plys/1.ply")), before);
+  EXPECT_EQ(write_to("dataset/A1/plys/labelled.ply").status, 0);
+}
+
 // By whatever path.
 TEST_F(ModelCommand, DoesNotOverwriteItsInput) {
   std::filesystem::create_symlink("scan.ply", directory_ / "link.ply");

@@ -10,6 +10,9 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/cli/options/arguments.hpp"
+#include "tanglebin/dataset/dataset.hpp"
+#include "tanglebin/dataset/manifest.hpp"
+#include "tanglebin/files/read_file.hpp"
 
 namespace tanglebin::cli {
 namespace {
@@ -36,6 +39,31 @@ std::string place_of(const std::string& file) {
   return error ? file : place.string();
 }
 
+bool lists(const fs::path& manifest, const std::string& path) {
+  const std::string entry = fmt::format(R"("path":"{}")", path);
+  bool is_listed = false;
+  for_each_line(manifest, [&](const FileLine& line) {
+    is_listed = is_listed || line.text.find(entry) != std::string::npos;
+  });
+  return is_listed;
+}
+
+bool is_file_of_dataset(const fs::path& file, const fs::path& directory) {
+  if (!fs::is_regular_file(directory / manifest_name)) return false;
+  const std::string path = file.lexically_relative(directory).generic_string();
+  return std::ranges::find(dataset_files, path) != dataset_files.end() ||
+         lists(directory / manifest_name, path);
+}
+
+void expect_no_file_of_dataset(const std::string& option, const std::string& output) {
+  const fs::path place = place_of(output);
+  for (fs::path directory = place.parent_path(); directory.has_relative_path();
+       directory = directory.parent_path()) {
+    if (is_file_of_dataset(place, directory))
+      throw InputError({"", 0, option}, excerpt(output) + ", which is a file of a dataset", "another name");
+  }
+}
+
 }  // namespace
 
 void expect_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs) {
@@ -48,6 +76,7 @@ void expect_outputs(const std::vector<Output>& outputs, const std::vector<std::s
     if (std::ranges::find(extensions, extension_of(file)) == extensions.end())
       throw InputError({"", 0, option}, excerpt(file),
                        fmt::format("a name that ends in {}", fmt::join(extensions, " or ")));
+    expect_no_file_of_dataset(option, file);
   }
 }
 

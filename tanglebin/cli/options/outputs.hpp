@@ -15,7 +15,8 @@ struct Output {
 };
 
 /// Throws InputError naming the option if a file has none of its extensions, in upper or lower case, or if
-/// two outputs are the same, or one is an input. Standard output, devices and pipes need no extension.
+/// two outputs are the same, one is an input, or one is a file that a dataset lists. Standard output, devices
+/// and pipes need no extension.
 void expect_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs);
 
 /// Throws InputError naming the option if its file or directory is one of the inputs, by whatever name. An
