@@ -103,7 +103,7 @@ void expect_undistorted(const YamlMap& info) {
   const std::vector<double> distortion = info.numbers(names);
   if (std::ranges::all_of(distortion, [](double value) { return value == 0; })) return;
   info.fail(names, fmt::format("[{:.6g}]", fmt::join(distortion, ", ")),
-            "zeros: the camera_info of the rectified image (in ROS, image_rect); rectify the image first");
+            "zeros, or a projection matrix, which is the rectified image's (in ROS, image_rect)");
 }
 
 void expect_whole_image(const YamlMap& info, const Intrinsics& intrinsics) {
@@ -117,13 +117,16 @@ void expect_whole_image(const YamlMap& info, const Intrinsics& intrinsics) {
     region->fail({"width"}, "a region of the image", "0: the camera_info of the image itself");
 }
 
-// The projection matrix is the rectified image's; the camera matrix is that of the image before.
+// The projection matrix is the rectified image's; the camera matrix and the distortion are those of the image
+// before. ROS has one camera_info for both.
 Intrinsics read_info(const YamlMap& info) {
-  expect_undistorted(info);
   std::vector<double> projection = info.numbers({"projection_matrix", "p", "P"});
   const bool has_projection = !projection.empty() && projection[0] != 0;
   const auto names = {"camera_matrix", "k", "K"};
-  if (!has_projection) projection = info.numbers(names);
+  if (!has_projection) {
+    expect_undistorted(info);
+    projection = info.numbers(names);
+  }
   const std::size_t columns = has_projection ? 4 : 3;
   if (projection.size() != 3 * columns)
     info.fail(names, fmt::format("{} numbers", projection.size()),

@@ -59,7 +59,9 @@ TEST(CameraFile, ReadsOpen3DsPinholeCameraParametersWhoseExtrinsicLeadsFromTheWo
 }
 
 // As camera_calibration_parsers writes it.
-std::string calibration_file(const std::string& distortion) {
+std::string calibration_file(
+    const std::string& distortion,
+    const std::string& projection = "585.5, 0., 319.5, 0., 0., 586.25, 241., 0., 0., 0., 1., 0.") {
   return R"(image_width: 640
 image_height: 480
 camera_name: rgb
@@ -80,14 +82,18 @@ rectification_matrix:
 projection_matrix:
   rows: 3
   cols: 4
-  data: [585.5, 0., 319.5, 0., 0., 586.25, 241., 0., 0., 0., 1., 0.]
-)";
+  data: [)" +
+         projection + "]\n";
 }
 
 TEST(CameraFile, ReadsACalibrationFileOfRosAndTakesTheRectifiedImages) {
   const SceneCamera camera = camera_of(calibration_file("0.0, 0.0, 0.0, 0.0, 0.0"));
   EXPECT_EQ(camera.intrinsics, expected_intrinsics);
   EXPECT_FALSE(camera.pose);
+}
+
+TEST(CameraFile, TakesTheRectifiedImagesProjectionWhereTheImageBeforeIsDistorted) {
+  EXPECT_EQ(camera_of(calibration_file("-0.25, 0.1, 0.0, 0.0, 0.0")).intrinsics, expected_intrinsics);
 }
 
 // As `ros2 topic echo` prints it.
@@ -203,7 +209,7 @@ TEST(CameraFile, SaysWhatIsWrong) {
       {R"({"width": 640, "height": 480, "camera_to_world": [[2,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]], )" +
            matrix + "}",
        "camera_to_world: found a matrix that is no rigid motion"},
-      {calibration_file("-0.25, 0.1, 0.0, 0.0, 0.0"),
+      {calibration_file("-0.25, 0.1, 0.0, 0.0, 0.0", "0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0"),
        "camera:10: distortion_coefficients: found [-0.25, 0.1, 0, 0, 0], expected zeros"},
       {camera_info("2"), "binning_x: found a binned image"},
       {"width: 640\nheight: 480\n", "found 0 numbers, expected 9 numbers"},
