@@ -115,7 +115,8 @@ void print_text(const Score& score, const std::optional<TubesScore>& tubes_score
   print_out("mean IoU             {:.3f}\n", score.mean_iou);
   print_out("F1 at IoU 0.5        {:.3f}  precision {:.3f}, recall {:.3f}\n", f1, precision, recall);
   print_out("panoptic quality     {:.3f}\n", panoptic_quality);
-  print_out("adjusted Rand index  {:.3f}\n", score.adjusted_rand_index);
+  print_out("adjusted Rand index  {}\n",
+            score.adjusted_rand_index ? fmt::format("{:.3f}", *score.adjusted_rand_index) : "–");
   print_out("{}, {}: {} correct, {} over-segmented, {} under-segmented, {} missed, {} noise\n",
             counted(score.tubes.size(), "tube"), counted(score.confusion.segments.size(), "label"),
             instances.correct, instances.over_segmented, instances.under_segmented, instances.missed,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "tanglebin/cli/options/arguments.hpp"
@@ -27,14 +29,19 @@ void print_scene_json(const SceneScore& scene) {
   print_json_line(json);
 }
 
+std::string text_of(const std::optional<double>& rand_index) {
+  return rand_index ? fmt::format("{:.4f}", *rand_index) : "–";
+}
+
 void print_scene(const SceneScore& scene) {
   if (scene.failure) {
     print_out("{:<12} {}\n", name_of(scene.seen), scene.failure->reason);
     return;
   }
   const Score& score = scene.score->labels;
-  print_out("{:<12} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7.4f}\n", name_of(scene.seen), score.micro_recall,
-            score.mean_iou, score.detection.f1, score.detection.panoptic_quality, score.adjusted_rand_index);
+  print_out("{:<12} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7}\n", name_of(scene.seen), score.micro_recall,
+            score.mean_iou, score.detection.f1, score.detection.panoptic_quality,
+            text_of(score.adjusted_rand_index));
 }
 
 void print_means_json(const std::vector<MeanScore>& means) {
@@ -49,7 +56,7 @@ void print_means_json(const std::vector<MeanScore>& means) {
                              {"mean_iou", mean.mean_iou},
                              {"f1", mean.f1},
                              {"panoptic_quality", mean.panoptic_quality},
-                             {"adjusted_rand_index", mean.adjusted_rand_index}});
+                             {"adjusted_rand_index", number_or_null(mean.adjusted_rand_index)}});
   }
   print_json_line(json);
 }
@@ -58,9 +65,9 @@ void print_means(const std::vector<MeanScore>& means) {
   print_out("\n{:<6} {:>5} {:>6} {:>6} {:>12} {:>9} {:>7} {:>7} {:>7}\n", "set", "tubes", "scenes", "failed",
             "micro-recall", "mean IoU", "F1", "PQ", "ARI");
   for (const MeanScore& mean : means) {
-    print_out("{:<6} {:>5} {:>6} {:>6} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7.4f}\n",
+    print_out("{:<6} {:>5} {:>6} {:>6} {:>12.4f} {:>9.4f} {:>7.4f} {:>7.4f} {:>7}\n",
               seen_by(mean.scanner, mean.set), mean.tubes, mean.scenes, mean.failed, mean.micro_recall,
-              mean.mean_iou, mean.f1, mean.panoptic_quality, mean.adjusted_rand_index);
+              mean.mean_iou, mean.f1, mean.panoptic_quality, text_of(mean.adjusted_rand_index));
   }
 }
 

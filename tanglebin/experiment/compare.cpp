@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "tanglebin/base/error.hpp"
@@ -17,8 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* unmixed_recall = "unmixed_recall";
-constexpr std::array<const char*, 6> measure_names = {
-    "micro_recall", "mean_iou", "f1", "panoptic_quality", "adjusted_rand_index", unmixed_recall};
+constexpr const char* rand_index = "adjusted_rand_index";
+constexpr std::array<const char*, 6> measure_names = {"micro_recall",     "mean_iou", "f1",
+                                                      "panoptic_quality", rand_index, unmixed_recall};
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 using Measures = std::array<double, measure_names.size()>;
 
 JsonRecord experiment_in(const fs::path& directory) {
@@ -47,11 +50,18 @@ std::optional<double> unmixed_recall_of(const RunResult& result, const JsonRecor
   return record.number_or_null(unmixed_recall, 0, 1);
 }
 
+double measure_of(const RunResult& result, const JsonRecord& record, const char* name) {
+  if (name == rand_index && result.run.scene.tubes == 1) return undefined;
+  if (result.failure) return 0;
+  if (name == rand_index) return record.number_or_null(name, -1, 1).value_or(undefined);
+  return record.number(name, -1, 1);
+}
+
 // Where no points are marked as mixed, the micro-recall is that without them.
 Measures measures_of(const RunResult& result, const JsonRecord& record) {
   Measures measures{};
-  if (result.failure) return measures;
-  for (std::size_t i = 0; i + 1 < measures.size(); ++i) measures[i] = record.number(measure_names[i], -1, 1);
+  for (std::size_t i = 0; i + 1 < measures.size(); ++i)
+    measures[i] = measure_of(result, record, measure_names[i]);
   measures.back() = unmixed_recall_of(result, record).value_or(measures.front());
   return measures;
 }
@@ -114,11 +124,17 @@ std::size_t count_common_runs(const SceneRuns& a, const SceneRuns& b) {
       std::ranges::count_if(a.runs, [&](const auto& run) { return b.runs.contains(run.first); }));
 }
 
-Measures mean(const std::vector<Pair>& pairs, Measures Pair::*side) {
-  Measures mean{};
-  for (const Pair& pair : pairs) add(mean, pair.*side);
-  divide(mean, pairs.size());
-  return mean;
+double mean(const std::vector<Pair>& pairs, Measures Pair::*side, std::size_t measure) {
+  double sum = 0;
+  for (const Pair& pair : pairs) sum += (pair.*side)[measure];
+  return sum / static_cast<double>(pairs.size());
+}
+
+std::vector<Pair> pairs_with(std::vector<Pair> pairs, std::size_t measure) {
+  std::erase_if(pairs, [&](const Pair& pair) {
+    return std::isnan(pair.baseline[measure]) || std::isnan(pair.other[measure]);
+  });
+  return pairs;
 }
 
 std::vector<double> differences_of(const std::vector<Pair>& pairs, std::size_t measure) {
@@ -129,14 +145,15 @@ std::vector<double> differences_of(const std::vector<Pair>& pairs, std::size_t m
 }
 
 std::vector<MeasureDifference> measure_differences(const std::vector<Pair>& pairs, bool have_mixed) {
-  const Measures baseline = mean(pairs, &Pair::baseline);
-  const Measures other = mean(pairs, &Pair::other);
   std::vector<MeasureDifference> differences;
   for (std::size_t i = 0; i < measure_names.size(); ++i) {
     if (measure_names[i] == unmixed_recall && !have_mixed) continue;
-    const Estimate estimate = estimate_of_mean(differences_of(pairs, i));
-    differences.push_back(
-        {measure_names[i], baseline[i], other[i], other[i] - baseline[i], estimate.low, estimate.high});
+    const std::vector<Pair> measured = pairs_with(pairs, i);
+    if (measured.empty()) continue;
+    const double baseline = mean(measured, &Pair::baseline, i);
+    const double other = mean(measured, &Pair::other, i);
+    const Estimate estimate = estimate_of_mean(differences_of(measured, i));
+    differences.push_back({measure_names[i], baseline, other, other - baseline, estimate.low, estimate.high});
   }
   return differences;
 }

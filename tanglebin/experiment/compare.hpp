@@ -43,10 +43,11 @@ struct Comparison {
   Contestant baseline;
   Contestant other;
   std::size_t scenes = 0;
-  std::size_t unpaired = 0;                   ///< runs that only one side has
-  std::vector<MeasureDifference> measures{};  ///< unmixed_recall only if clouds mark mixed points
-  std::vector<SceneDifference> better{};      ///< scenes, the one with the greatest difference first
-  std::vector<SceneDifference> worse{};       ///< the same
+  std::size_t unpaired = 0;  ///< runs that only one side has
+  /// unmixed_recall only if clouds mark mixed points, adjusted_rand_index only of scenes with several tubes
+  std::vector<MeasureDifference> measures{};
+  std::vector<SceneDifference> better{};  ///< scenes, the one with the greatest difference first
+  std::vector<SceneDifference> worse{};   ///< the same
 };
 
 /// Whom to compare: in one directory, every method with the baseline (the first if none is named); in

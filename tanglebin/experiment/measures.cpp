@@ -11,7 +11,7 @@ Json measures_json(const Score& score) {
           {"recall", score.detection.recall},
           {"f1", score.detection.f1},
           {"panoptic_quality", score.detection.panoptic_quality},
-          {"adjusted_rand_index", score.adjusted_rand_index},
+          {"adjusted_rand_index", number_or_null(score.adjusted_rand_index)},
           {"unmixed_recall", number_or_null(score.unmixed_recall)},
           {"correct", score.instances.correct},
           {"over_segmented", score.instances.over_segmented},

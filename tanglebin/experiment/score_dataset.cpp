@@ -9,6 +9,17 @@
 
 namespace tanglebin {
 
+namespace {
+
+// 0 for a scene that failed, unless it is of one tube.
+std::optional<double> rand_index_of(const SceneScore& scene) {
+  if (scene.score) return scene.score->labels.adjusted_rand_index;
+  if (scene.seen.scene.tubes == 1) return std::nullopt;
+  return 0;
+}
+
+}  // namespace
+
 SceneScore score_scene(const Dataset& dataset, const SeenCase& seen, const LabelsDirectory& labels) {
   expect_there(labels, {1});
   const CaseData data = read_seen_case(dataset, seen);
@@ -47,7 +58,11 @@ void add(std::vector<MeanScore>& means, const SceneScore& scene) {
   include(mean->mean_iou, score.mean_iou);
   include(mean->f1, score.detection.f1);
   include(mean->panoptic_quality, score.detection.panoptic_quality);
-  include(mean->adjusted_rand_index, score.adjusted_rand_index);
+  if (const auto rand_index = rand_index_of(scene)) {
+    ++mean->with_rand_index;
+    const double before = mean->adjusted_rand_index.value_or(0);
+    mean->adjusted_rand_index = before + (*rand_index - before) / static_cast<double>(mean->with_rand_index);
+  }
 }
 
 }  // namespace tanglebin

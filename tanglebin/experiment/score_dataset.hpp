@@ -34,7 +34,8 @@ struct MeanScore {
   double mean_iou = 0;
   double f1 = 0;
   double panoptic_quality = 0;
-  double adjusted_rand_index = 0;
+  std::optional<double> adjusted_rand_index{};  ///< without scenes of one tube; none if all are
+  std::size_t with_rand_index = 0;              ///< scenes that it is the mean of
 };
 
 /// Adds a scene to the means, which are in order of appearance.

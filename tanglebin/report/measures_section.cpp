@@ -14,6 +14,12 @@ std::string mean_share(const std::vector<RunScore>& runs, const Measure& measure
   return share_text(summarize(values(runs, measure)).mean);
 }
 
+std::string mean_rand_index(const std::vector<RunScore>& runs) {
+  const auto several = chosen(runs, [](const RunScore& run) { return run.adjusted_rand_index.has_value(); });
+  if (several.empty()) return "–";
+  return mean_share(several, [](const RunScore& run) { return *run.adjusted_rand_index; });
+}
+
 std::string mean_error_mm(const std::vector<RunScore>& runs) {
   constexpr double millimetres = 1000;
   const auto found = chosen(runs, [](const RunScore& run) { return run.centre_line_error.has_value(); });
@@ -42,7 +48,7 @@ std::vector<std::string> row_of(int tubes, const std::vector<RunScore>& runs) {
           mean_share(runs, [](const RunScore& run) { return run.mean_iou; }),
           mean_share(runs, [](const RunScore& run) { return run.f1; }),
           mean_share(runs, [](const RunScore& run) { return run.panoptic_quality; }),
-          mean_share(runs, [](const RunScore& run) { return run.adjusted_rand_index; }),
+          mean_rand_index(runs),
           mean_error_mm(runs),
           percentage(found, sum(runs, &RunScore::true_joins)),
           percentage(found, sum(runs, &RunScore::joins_made))};
@@ -77,10 +83,11 @@ std::string other_measures(const Results& results) {
       paragraph("note",
                 "Means over the cases. IoU: intersection over union of a tube and its assigned label. "
                 "F1 and PQ (panoptic quality): tubes detected at IoU above 0.5. ARI: adjusted "
-                "Rand index. Centre line: median distance of the modelled centre lines from the "
-                "true ones, if a tube was found. Joins: links between pieces of a tube that is "
-                "partly occluded; how many of the true ones were found, and how many of those "
-                "made are true. Tanglebin's <code>docs/metrics.md</code> defines each measure.");
+                "Rand index, without scenes of one tube. Centre line: median distance of the modelled centre "
+                "lines from the "
+                "true ones, if a tube was found. Joins: between neighbouring pieces of a tube, "
+                "hidden or not; how many of the true ones were found, and how many of those made "
+                "are true. Tanglebin's <code>docs/metrics.md</code> defines each measure.");
   for (const RunGroup& group : groups_of(scores)) {
     content += html(table_of(chosen(scores, [&](const RunScore& run) { return is_of(run, group); }),
                              group_text(group, results), ratio));

@@ -117,13 +117,14 @@ RunScore score_of(const JsonRecord& record) {
   RunScore score{.run = run_of(record), .drawn = numbers_by_name(record, "drawn")};
   if (const auto failure = failure_in(record)) {
     score.failure = failure->reason;
+    if (score.run.id.tubes == 1) score.adjusted_rand_index.reset();
     return score;
   }
   score.micro_recall = share_of(record, "micro_recall");
   score.mean_iou = share_of(record, "mean_iou");
   score.f1 = share_of(record, "f1");
   score.panoptic_quality = share_of(record, "panoptic_quality");
-  score.adjusted_rand_index = record.number("adjusted_rand_index", -1, 1);
+  score.adjusted_rand_index = record.number_or_null("adjusted_rand_index", -1, 1);
   if (record.has("unmixed_recall")) score.unmixed_recall = record.number_or_null("unmixed_recall", 0, 1);
   if (!record.has("tubes_found")) return score;  // a method that gives labels only
   score.centre_line_error = record.number_or_null("centre_line_error", 0, infinity);

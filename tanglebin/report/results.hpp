@@ -53,9 +53,9 @@ struct RunScore {
   double mean_iou = 0;
   double f1 = 0;
   double panoptic_quality = 0;
-  double adjusted_rand_index = 0;
-  std::optional<double> unmixed_recall{};     ///< none if the cloud does not mark mixed points
-  std::optional<double> centre_line_error{};  ///< m; none if no tube was found
+  std::optional<double> adjusted_rand_index = 0;  ///< none for a scene of one tube
+  std::optional<double> unmixed_recall{};         ///< none if the cloud does not mark mixed points
+  std::optional<double> centre_line_error{};      ///< m; none if no tube was found
   std::size_t true_joins = 0;
   std::size_t joins_found = 0;            ///< of the true ones
   std::size_t joins_made = 0;             ///< true or not

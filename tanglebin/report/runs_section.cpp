@@ -68,7 +68,7 @@ Json columns_of(const Results& results) {
     columns["mean_iou"].push_back(score.mean_iou);
     columns["f1"].push_back(score.f1);
     columns["panoptic_quality"].push_back(score.panoptic_quality);
-    columns["adjusted_rand_index"].push_back(score.adjusted_rand_index);
+    columns["adjusted_rand_index"].push_back(number_or_null(score.adjusted_rand_index));
     columns["unmixed_recall"].push_back(number_or_null(score.unmixed_recall));
     columns["centre_line_error"].push_back(number_or_null(score.centre_line_error));
     columns["joins_missed"].push_back(score.true_joins - score.joins_found);

@@ -63,7 +63,7 @@ Score score(const std::vector<std::int32_t>& truth, const std::vector<std::int32
   // Equation (1): tp + fn of a tube is the number of its points.
   score.micro_recall = static_cast<double>(score.correct_points) / static_cast<double>(score.points);
   score.detection = detection(score.confusion);
-  score.adjusted_rand_index = adjusted_rand_index(score.confusion);
+  if (score.tubes.size() > 1) score.adjusted_rand_index = adjusted_rand_index(score.confusion);
   score.unmixed_recall = unmixed_recall(score.tubes, truth, predicted, mixed);
   score.instances = count_instances(score.confusion);
   return score;

@@ -28,7 +28,7 @@ struct Score {
   std::int64_t null_points;
   double mean_iou;  ///< over all tubes, found or not
   Detection detection;
-  double adjusted_rand_index;
+  std::optional<double> adjusted_rand_index;  ///< none for one tube: it would say nothing
   /// Micro-recall without the mixed points, which lie between surfaces; none if they are not marked, or all
   /// are mixed.
   std::optional<double> unmixed_recall;

@@ -38,6 +38,16 @@ public:
     write(line);
   }
 
+  void add_of_one_tube(const std::string& method, int number, double micro_recall) {
+    nlohmann::json line = head(method, number, 1);
+    line["tubes"] = 1;
+    for (const char* measure : {"micro_recall", "mean_iou", "f1", "panoptic_quality"})
+      line[measure] = micro_recall;
+    line["adjusted_rand_index"] = nullptr;
+    line["unmixed_recall"] = nullptr;
+    write(line);
+  }
+
   void add_failure(const std::string& method, int number, double ratio, const std::string& of = "method") {
     nlohmann::json line = head(method, number, ratio);
     line["failure_of"] = of;
@@ -108,6 +118,23 @@ TEST(Compare, SaysNothingOfMixedPointsThatNoCloudMarks) {
   for (const char* method : {"axis", "mine"}) results.add(method, 1, 0.3, 0.5);
   for (const MeasureDifference& measure : compare(results.of("axis"), results.of("mine")).measures)
     EXPECT_NE(measure.measure, "unmixed_recall");
+}
+
+TEST(Compare, LeavesScenesOfOneTubeOutOfTheRandIndex) {
+  Results results({"axis", "mine"});
+  const auto rand_indices = [&] {
+    std::vector<MeasureDifference> found = compare(results.of("axis"), results.of("mine")).measures;
+    std::erase_if(found, [](const auto& measure) { return measure.measure != "adjusted_rand_index"; });
+    return found;
+  };
+  results.add_of_one_tube("axis", 1, 0.5);
+  results.add_of_one_tube("mine", 1, 1);
+  EXPECT_TRUE(rand_indices().empty());
+  results.add("axis", 2, 1, 0.5);
+  results.add("mine", 2, 1, 1);
+  ASSERT_EQ(rand_indices().size(), 1U);
+  EXPECT_EQ(rand_indices()[0].baseline, 0.25);
+  EXPECT_EQ(rand_indices()[0].other, 0.5);
 }
 
 TEST(Compare, NamesADirectoryThatIsMissingAndAMethodThatIsNotThere) {

@@ -95,6 +95,21 @@ TEST(Page, OtherMeasuresAreMeansAndSharesOfAllJoins) {
                                                            "2.10", "60.0 % of 20", "75.0 % of 16"})));
 }
 
+TEST(Page, ScenesOfOneTubeHaveNoRandIndex) {
+  Results results = small_results();
+  for (RunScore& score : results.scores) {
+    score.run.id.tubes = 1;
+    score.adjusted_rand_index.reset();
+  }
+  EXPECT_THAT(report_page(results), HasSubstr(row({"1", "2", "0", "0.500", "0.250", "0.125", "–", "2.10",
+                                                   "60.0 % of 20", "75.0 % of 16"})));
+}
+
+TEST(Page, SaysThatJoinsAreBetweenNeighboursHiddenOrNot) {
+  EXPECT_THAT(report_page(small_results()),
+              HasSubstr("Joins: between neighbouring pieces of a tube, hidden or not;"));
+}
+
 TEST(Page, AFailedRunCountsAsOneThatFoundNothingAndIsCounted) {
   Results results = small_results();
   results.scores[1] = {.run = run_of("A", 2), .failure = "no <points>"};

@@ -68,6 +68,11 @@ TEST(Score, OfNoLabelsIsZero) {
   EXPECT_EQ(nothing.tubes.at(0).assigned, std::nullopt);
 }
 
+TEST(Score, OfOneTubeHasNoRandIndex) {
+  EXPECT_EQ(score_of(Counts{{40, 2}}).adjusted_rand_index, std::nullopt);
+  EXPECT_NE(score_of(Counts{{40, 2}, {0, 3}}).adjusted_rand_index, std::nullopt);
+}
+
 TEST(Score, ALabelStandsForOneTubeOnly) {
   const Score merged = score_of(Counts{{40, 0}, {60, 0}});
   EXPECT_DOUBLE_EQ(merged.micro_recall, 0.6);
@@ -106,7 +111,7 @@ RC_GTEST_PROP(Score, OfTheTruthItselfIsPerfect, ()) {
   RC_ASSERT(perfect.detection.recall == 1.0);
   RC_ASSERT(perfect.detection.f1 == 1.0);
   RC_ASSERT(perfect.detection.panoptic_quality == 1.0);
-  RC_ASSERT(perfect.adjusted_rand_index == 1.0);
+  RC_ASSERT(perfect.adjusted_rand_index.value_or(1) == 1.0);
   RC_ASSERT(perfect.instances.correct == perfect.tubes.size());
 }
 
@@ -117,8 +122,8 @@ RC_GTEST_PROP(Score, KeepsItsBounds, ()) {
     RC_ASSERT(measure >= 0.0);
     RC_ASSERT(measure <= 1.0);
   }
-  RC_ASSERT(any.adjusted_rand_index >= -1.0);
-  RC_ASSERT(any.adjusted_rand_index <= 1.0);
+  RC_ASSERT(any.adjusted_rand_index.value_or(0) >= -1.0);
+  RC_ASSERT(any.adjusted_rand_index.value_or(0) <= 1.0);
   RC_ASSERT(any.correct_points + any.null_points <= any.points);
   RC_ASSERT(panoptic_quality <= f1);
 }
