@@ -8,6 +8,7 @@
 
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/dataset/seen_case.hpp"
+#include "tanglebin/recipe/case_id.hpp"
 #include "tanglebin/report/html.hpp"
 #include "tanglebin/report/published_figures.hpp"
 #include "tanglebin/report/sections.hpp"
@@ -35,21 +36,28 @@ std::string ratios_text(const std::vector<double>& ratios) {
 // ---- What was run
 // --------------------------------------------------------------------------------------------
 
-/// "Set A: 320 cases of 1 to 20 tubes"
-std::string set_text(const std::vector<RunScore>& scores, const std::string& set) {
-  const auto runs = chosen(scores, [&](const RunScore& score) { return score.run.id.set == set; });
-  const auto cases = distinct(runs, [](const RunScore& score) { return score.run.id; });
+/// "2 of 9 cases", or "9 cases" if these are all that the recipe has
+std::string cases_text(std::size_t count, const std::optional<Recipe>& recipe, const std::string& set) {
+  const auto all =
+      recipe ? static_cast<std::size_t>(std::ranges::count(cases(*recipe), set, &CaseId::set)) : 0;
+  return count < all ? fmt::format("{} of {}", count, counted(all, "case")) : counted(count, "case");
+}
+
+/// "320 cases of set A (1 to 20 tubes)"
+std::string set_text(const Results& results, const std::string& set) {
+  const auto runs = chosen(results.scores, [&](const RunScore& score) { return score.run.id.set == set; });
+  const auto scored = distinct(runs, [](const RunScore& score) { return score.run.id; });
   const auto tubes = distinct(runs, [](const RunScore& score) { return tubes_of(score); });
   const std::string numbers = tubes.size() == 1 ? "" : fmt::format("{} to ", tubes.front());
-  return fmt::format("{} of set {} ({}{})", counted(cases.size(), "case"), set, numbers,
-                     counted(static_cast<std::size_t>(tubes.back()), "tube"));
+  return fmt::format("{} of set {} ({}{})", cases_text(scored.size(), results.experiment.recipe, set), set,
+                     numbers, counted(static_cast<std::size_t>(tubes.back()), "tube"));
 }
 
 std::string dataset_text(const Results& results) {
   std::vector<std::string> sets;
   for (const std::string& set :
        distinct(results.scores, [](const RunScore& score) { return score.run.id.set; })) {
-    sets.push_back(set_text(results.scores, set));
+    sets.push_back(set_text(results, set));
   }
   return sets.empty() ? "no scored cases" : joined(sets);
 }

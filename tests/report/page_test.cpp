@@ -144,6 +144,15 @@ TEST(Page, TheHeadHasTheHeadlineNumbers) {
   EXPECT_THAT(page, HasSubstr("i7-8750H"));
 }
 
+TEST(Page, SaysOfHowManyCasesOfTheDatasetItIs) {
+  Results results = small_results();
+  results.experiment.recipe.emplace();
+  results.experiment.recipe->sets = {{.name = "A", .tubes = {10}, .cases = 9},
+                                     {.name = "B", .tubes = {10}, .cases = 1}};
+  EXPECT_THAT(report_page(results),
+              HasSubstr("2 of 9 cases of set A (10 tubes) and 1 case of set B (10 tubes); seed 7"));
+}
+
 std::string commands_in(const Results& results) {
   const std::string page = report_page(results, "pages/report.html");
   const std::size_t begin = page.find("<code>", page.find("<pre"));
