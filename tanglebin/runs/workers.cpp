@@ -292,7 +292,8 @@ private:
       worker.task.reset();
       return;
     }
-    const std::size_t task = worker.task.value();
+    if (!worker.task) return;  // answered just before it was killed
+    const std::size_t task = *worker.task;
     worker.task.reset();
     switch (answer->outcome) {
       case Outcome::done: {

@@ -231,6 +231,30 @@ TEST(Workers, ASecondInterruptEndsThemAtOnce) {
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);  // no worker is left
 }
 
+TEST(Workers, ASecondInterruptAlsoEndsARunWithAnAnswerThatNobodyHasRead) {
+  const pid_t parent = getpid();
+  Heard heard;
+  WorkersObserver observer = heard.observer();
+  // Long enough for the answer to arrive, and for the second signal to count as another wish.
+  observer.stopping = [] {
+    usleep(700'000);
+    raise(SIGINT);
+  };
+  const bool complete = run_in_workers(
+      1, 10,
+      [&](std::size_t) -> std::string {
+        kill(parent, SIGINT);
+        usleep(200'000);  // the signal is handled first
+        return "done";
+      },
+      observer);
+  EXPECT_FALSE(complete);
+  EXPECT_EQ(interrupting_signal(), SIGINT);
+  EXPECT_TRUE(heard.done.empty());
+  EXPECT_TRUE(heard.failed.empty());
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);  // no worker is left
+}
+
 TEST(Workers, ATaskThatTakesTooLongIsGivenUpAndTheOthersAreDone) {
   Heard heard;
   const bool all = run_in_workers(
