@@ -80,6 +80,25 @@ bool are_colors_of_labels(const std::vector<Color>& colors) {
   return std::ranges::all_of(colors, [&](const Color& color) { return of_labels.contains(packed(color)); });
 }
 
+// Beyond the last colour, they begin again with the first tube's.
+std::int32_t label_with_the_color_of(std::int32_t label) {
+  return label <= most_tubes ? label : 1 + (label - 1) % most_tubes;
+}
+
+std::vector<Color> colors_of(const std::vector<std::int32_t>& labels) {
+  const auto last = std::ranges::max_element(labels);
+  const std::int32_t tubes = last == labels.end() ? 0 : std::clamp(*last, bin_label, most_tubes);
+  const std::vector<Color> of_labels = label_colors(tubes);
+  std::vector<Color> colors;
+  colors.reserve(labels.size());
+  for (const std::int32_t label : labels) {
+    colors.push_back(label == null_label
+                         ? null_color
+                         : of_labels[static_cast<std::size_t>(label_with_the_color_of(label))]);
+  }
+  return colors;
+}
+
 }  // namespace
 
 std::vector<Color> label_colors(int tubes) {
@@ -123,12 +142,7 @@ std::vector<std::int32_t> labels_from_colors(const std::vector<Color>& colors, i
 PointCloud labelled(PointCloud cloud, std::vector<std::int32_t> labels) {
   cloud.labels = std::move(labels);
   if (!are_colors_of_labels(cloud.colors)) return cloud;
-  const auto last = std::ranges::max_element(cloud.labels);
-  const std::vector<Color> colors = label_colors(last == cloud.labels.end() ? 0 : std::max(bin_label, *last));
-  cloud.colors.clear();
-  cloud.colors.reserve(cloud.labels.size());
-  for (const std::int32_t label : cloud.labels)
-    cloud.colors.push_back(label == null_label ? null_color : colors[static_cast<std::size_t>(label)]);
+  cloud.colors = colors_of(cloud.labels);
   return cloud;
 }
 

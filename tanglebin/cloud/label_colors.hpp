@@ -22,7 +22,8 @@ std::vector<std::int32_t> labels_from_colors(const std::vector<Color>& colors, i
                                              const std::string& file);
 
 /// The same cloud with these labels, one for each point. A cloud without colours, or with none but colours of
-/// labels, gets those of its new labels. Any other colours, such as a colour camera's, are kept.
+/// labels, gets those of its new labels; labels above a million share the colours of smaller ones. Any other
+/// colours, such as a colour camera's, are kept.
 PointCloud labelled(PointCloud cloud, std::vector<std::int32_t> labels);
 
 }  // namespace tanglebin

@@ -52,6 +52,18 @@ std::optional<std::string> labels_of(const Entry& entry, const RunId& run) {
   return directory ? std::optional(labels_sha256(*directory, run)) : std::nullopt;
 }
 
+/// What a method made of a cloud, and how good it is.
+struct Scored {
+  Modelled modelled;
+  ModelScore score;
+};
+
+Lines lines_of(const RunId& run, const CaseRecord& record, const Scored& scored, const Place& place) {
+  Lines lines{result_json(run, record, scored.modelled, scored.score)};
+  if (scored.modelled.seconds) lines.push_back(times_json(run, scored.modelled, circumstances(place.jobs)));
+  return lines;
+}
+
 Lines run_cloud(const Dataset& dataset, const ExperimentSettings& settings, const SeenCase& seen,
                 const Place& place) {
   const CaseData data = read_seen_case(dataset, seen);
@@ -59,18 +71,22 @@ Lines run_cloud(const Dataset& dataset, const ExperimentSettings& settings, cons
   if (const std::optional<RunFailure> failure = failure_of_scene(data.cloud.labels))
     return failed_runs(record, settings, seen, *failure);
   const Recipe recipe = recipe_seen(dataset, seen);
+  const auto score_by = [&](const Entry& entry, const RunId& run) -> Scored {
+    const KnownScene known = told_scene(recipe, data, seen.scene, settings.scene);
+    Modelled modelled = model_by(entry, known, data, run, settings, place.scratch);
+    ModelScore score = score_model(data, modelled.model, modelled.has_tubes);
+    return {std::move(modelled), std::move(score)};
+  };
   return lines_of_runs(settings, seen, [&](const Entry& entry, const RunId& run) -> Lines {
     const std::optional<std::string> labels = labels_of(entry, run);
+    std::optional<Scored> scored;
     try {
-      const KnownScene known = told_scene(recipe, data, seen.scene, settings.scene);
-      const Modelled modelled = model_by(entry, known, data, run, settings, place.scratch);
-      if (settings.keep_models) keep_model(place.results, run, data.cloud, modelled.model);
-      Lines lines{result_json(run, record, modelled, score_model(data, modelled.model, modelled.has_tubes))};
-      if (modelled.seconds) lines.push_back(times_json(run, modelled, circumstances(place.jobs)));
-      return lines;
+      scored = score_by(entry, run);
     } catch (const InputError& error) {
       return {failure_json(run, record, {FailureOf::method, complaint_of(error)}, labels)};
     }
+    if (settings.keep_models) keep_model(place.results, run, data.cloud, scored->modelled.model);
+    return lines_of(run, record, *scored, place);
   });
 }
 

@@ -5,6 +5,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "tests/cloud/clouds.hpp"
 #include "tests/support/complaint.hpp"
@@ -120,6 +122,13 @@ TEST(Labelled, ACamerasColoursStay) {
   const PointCloud cloud = labelled(cloud_in(seen), {1, 1, -1});
   EXPECT_EQ(cloud.colors, seen);
   EXPECT_THAT(cloud.labels, testing::ElementsAre(1, 1, -1));
+}
+
+TEST(Labelled, LabelsAboveAMillionShareTheColoursOfSmallerOnes) {
+  const PointCloud cloud = labelled(cloud_in({}), {1, 2'000'001, std::numeric_limits<std::int32_t>::max()});
+  EXPECT_THAT(cloud.labels, testing::ElementsAre(1, 2'000'001, std::numeric_limits<std::int32_t>::max()));
+  EXPECT_EQ(cloud.colors.at(1), cloud.colors.at(0));
+  EXPECT_EQ(cloud.colors.at(2), label_colors(483'647)[483'647]);
 }
 
 TEST(Labelled, NoPointsAreNone) {

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "tanglebin/base/bytes_of.hpp"
 #include "tanglebin/dataset/sha256.hpp"
 #include "tanglebin/experiment/results.hpp"
 #include "tanglebin/io/configuration.hpp"
@@ -281,6 +282,39 @@ TEST_F(RunExperiment, KeepsTheModelsWhereAskedAndMakesThoseThatAreMissing) {
   std::filesystem::remove(with / "models/axis/0.6/A3/plys/2.ply");
   EXPECT_EQ(run(with, wanted).progress.made, 1U);
   EXPECT_EQ(results_in(with), files);
+}
+
+TEST_F(RunExperiment, KeepsModelsOfLabelsThatHaveNoColourOfTheirOwnWithTheSameScores) {
+  const TemporaryDirectory axis;
+  const TemporaryDirectory without;
+  const TemporaryDirectory with;
+  const std::vector<CaseId> wanted = {{"A", 3, 1}};
+  settings_.methods = {entry_of(Method::axis)};
+  settings_.ratios = {1};
+  settings_.keep_models = true;
+  run(axis, wanted);
+  const auto labelled_file = axis / "models/axis/1/A3/plys/1.ply";
+  PointCloud labelled = read_ply(labelled_file);
+  constexpr std::int32_t surplus = 2'000'000;
+  for (std::int32_t& label : labelled.labels) label += label > bin_label ? surplus : 0;
+  write_bytes(labelled_file, tanglebin::bytes_of([&](std::ostream& out) { write_ply(out, labelled); }));
+
+  settings_.methods = {{"mine", LabelsDirectory{(axis / "models/axis/1").string()}}};
+  run(with, wanted);
+  settings_.keep_models = false;
+  run(without, wanted);
+  const std::string results = bytes_of(with / "results.jsonl");
+  EXPECT_GT(nlohmann::json::parse(results).at("micro_recall").get<double>(), 0.5);
+  EXPECT_EQ(results, bytes_of(without / "results.jsonl"));
+  EXPECT_EQ(read_ply(with / "models/mine/1/A3/plys/1.ply").labels, labelled.labels);
+}
+
+TEST_F(RunExperiment, AModelThatCannotBeKeptIsNoFailureOfTheMethod) {
+  const TemporaryDirectory results;
+  write_bytes(results / "models", "in the way");
+  settings_.keep_models = true;
+  EXPECT_THAT(complaint([&] { run(results); }), HasSubstr("models: found a file, expected a directory"));
+  EXPECT_EQ(bytes_of(results / "results.jsonl"), "");
 }
 
 /// What each line of results.jsonl says has failed, and how often.
