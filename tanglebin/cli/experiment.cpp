@@ -225,6 +225,13 @@ void print_text(const ExperimentArguments& arguments, const ExperimentSummary& s
             findings.seconds, run.found, summary.was_stopped() ? left_over(run) : "");
 }
 
+void print_left_out(const ModelAgain& model_again) {
+  for (const auto& [method, seen] : model_again.left_out()) {
+    print_error("tanglebin: {}: {} has more than {} labels, too many for pictures and scenes in 3D\n",
+                name_of(seen), method, most_labels_to_show);
+  }
+}
+
 void experiment(const ExperimentArguments& arguments) {
   expect_no_input("--out", arguments.out, {arguments.dataset});
   const ModelSettings model =
@@ -249,6 +256,7 @@ void experiment(const ExperimentArguments& arguments) {
     ModelAgain model_again(arguments.out, dataset, settings);
     write_pictures(arguments.out, dataset, settings, model_again);
     write_scenes(arguments.out, dataset, settings, static_cast<std::size_t>(arguments.scenes), model_again);
+    print_left_out(model_again);
   }
   const ResultsSummary results = summary_of(arguments.out, settings.ratios);
   const Findings findings{results.means(), results.failures(), results.ratio(), seconds_since(start)};

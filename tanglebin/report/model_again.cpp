@@ -1,6 +1,8 @@
 #include "tanglebin/report/model_again.hpp"
 
+#include <cstdint>
 #include <system_error>
+#include <unordered_set>
 #include <utility>
 #include <variant>
 
@@ -12,6 +14,16 @@
 namespace tanglebin {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+std::size_t count_of_labels(const Model& model) {
+  std::unordered_set<std::int32_t> labels(model.labels.begin(), model.labels.end());
+  for (const Tube& tube : model.tubes) labels.insert(tube.id);
+  return labels.size();
+}
+
+}  // namespace
 
 ModelAgain::ModelAgain(fs::path results, const Dataset& dataset, const ExperimentSettings& settings,
                        std::function<void()> at_run)
@@ -30,6 +42,14 @@ ModelAgain::~ModelAgain() {
 }
 
 std::optional<Model> ModelAgain::operator()(const Entry& entry, const SeenCase& seen, const CaseData& data) {
+  std::optional<Model> found = known_or_new(entry, seen, data);
+  if (!found || count_of_labels(*found) <= most_labels_to_show) return found;
+  left_out_.emplace(entry.name, seen);
+  return std::nullopt;
+}
+
+std::optional<Model> ModelAgain::known_or_new(const Entry& entry, const SeenCase& seen,
+                                              const CaseData& data) {
   if (!std::holds_alternative<Command>(entry.what)) return model(entry, seen, data);
   const auto [known, is_new] = of_commands_.try_emplace({entry.name, seen});
   if (is_new) known->second = model(entry, seen, data);

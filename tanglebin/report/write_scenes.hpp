@@ -27,8 +27,8 @@ std::vector<SceneToShow> scenes_to_show(const ResultsSummary& results, const std
 inline constexpr std::size_t most_points_of_results = 25'000;
 
 /// Writes scenes.jsonl (docs/formats.md): scenes_to_show() at ratio_to_show() of the results in `directory`,
-/// with the points that the first method's filter left, and what every method found. A command that fails
-/// this time is left out. Throws InputError as run_experiment() does.
+/// with the points that the first method's filter left, and what every method found. Where ModelAgain
+/// has no model, a method is left out. Throws InputError as run_experiment() does.
 void write_scenes(const std::filesystem::path& directory, const Dataset& dataset,
                   const ExperimentSettings& settings, std::size_t count, ModelAgain& model_again);
 

@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "tanglebin/experiment/run_experiment.hpp"
+#include "tanglebin/report/write_pictures.hpp"
+#include "tanglebin/report/write_scenes.hpp"
 #include "tests/experiment/small_dataset.hpp"
 
 namespace tanglebin {
@@ -69,6 +71,32 @@ TEST_F(CountingCommand, DoesNotRunAgainIfTheCallerHasHadEnough) {
   ModelAgain model_again(results_.path(), dataset_, settings_, [] { throw std::runtime_error("enough"); });
   EXPECT_THROW(label(model_again, wanted_.front()), std::runtime_error);
   EXPECT_FALSE(std::filesystem::exists(calls_));
+}
+
+TEST(ModelAgain, LeavesOutAModelWithMoreLabelsThanCanBeShown) {
+  Recipe recipe = test::small_recipe();
+  constexpr int width = 1600;
+  recipe.camera = downward_camera(width, 1000, focal_length_from_hfov(width, 1.22), {0, 0, 0.8});
+  const test::SmallDataset directory(recipe);
+  const Dataset dataset = directory.read();
+  const SeenCase seen{cases(dataset).front(), ""};
+  const CaseData data = read_seen_case(dataset, seen);
+  ASSERT_GT(data.cloud.points.size(), most_labels_to_show);
+  const test::TemporaryDirectory work;
+  const test::TemporaryDirectory results;
+  test::write_bytes(work / "each.sh",
+                    "n=$(sed -n 's/^element vertex //p' \"$1\" | head -n 1); seq 1 \"$n\" > \"$2\"\n");
+  const ExperimentSettings settings{
+      .methods = {{"each", command_of("sh each.sh {cloud} {out.txt}", work.path())}}, .ratios = {1}};
+  run_experiment(dataset, settings, {seen.scene}, results.path(), 1);
+
+  ModelAgain model_again(results.path(), dataset, settings);
+  EXPECT_FALSE(model_again(settings.methods.front(), seen, data).has_value());
+  EXPECT_TRUE(model_again.left_out().contains({"each", seen}));
+  write_pictures(results.path(), dataset, settings, model_again);
+  write_scenes(results.path(), dataset, settings, 1, model_again);
+  EXPECT_EQ(test::bytes_of(results / "pictures.jsonl"), "");
+  EXPECT_EQ(test::bytes_of(results / "scenes.jsonl"), "");
 }
 
 }  // namespace
