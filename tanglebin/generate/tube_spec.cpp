@@ -56,11 +56,11 @@ void validate_sizes(const SegmentSpec& segment, const std::string& where) {
 }
 
 void validate_bends(const SegmentSpec& segment, const std::string& where) {
-  expect_angle(segment.bend_max, where + "bend_max");
-  expect_angle(segment.bend_min, where + "bend_min");
-  expect(segment.bend_min <= segment.bend_max, where + "bend_min",
+  expect_angle(segment.bend_max, where + "bend_max_deg");
+  expect_angle(segment.bend_min, where + "bend_min_deg");
+  expect(segment.bend_min <= segment.bend_max, where + "bend_min_deg",
          fmt::format("{:.6g}°", degrees(segment.bend_min)),
-         fmt::format("at most bend_max, {:.6g}°", degrees(segment.bend_max)));
+         fmt::format("at most bend_max_deg, {:.6g}°", degrees(segment.bend_max)));
 }
 
 // Where the tube goes round a corner closer to a flat end, the sphere at that corner would stand out of it.
@@ -97,8 +97,8 @@ void validate_segments(const TubeSpec& spec, const std::string& where) {
 }
 
 void validate_arc(const Piece& arc, double radius, const std::string& where) {
-  expect_angle(arc.bend, where + ".bend");
-  expect(std::isfinite(arc.twist), where + ".twist", fmt::format("{}", arc.twist), "a finite angle");
+  expect_angle(arc.bend, where + ".bend_deg");
+  expect(std::isfinite(arc.twist), where + ".twist_deg", fmt::format("{}", arc.twist), "a finite angle");
   expect(std::isfinite(arc.bend_radius) && arc.bend_radius >= radius, where + ".bend_radius",
          fmt::format("{}", arc.bend_radius), fmt::format("at least the bar's radius, {} m", radius));
 }
@@ -110,7 +110,7 @@ void validate_pieces(const TubeSpec& spec, const std::string& where) {
     const std::string place = fmt::format("{}.piece[{}]", where, i);
     if (piece.length != 0 || piece.bend == 0) {
       expect_positive(piece.length, place + ".length");
-      expect(piece.bend == 0, place + ".bend", fmt::format("{:.6g}°", degrees(piece.bend)),
+      expect(piece.bend == 0, place + ".bend_deg", fmt::format("{:.6g}°", degrees(piece.bend)),
              "0, because the piece is straight");
     } else {
       validate_arc(piece, spec.radius, place);

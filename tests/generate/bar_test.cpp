@@ -124,7 +124,7 @@ TEST(Bar, ABendNarrowerThanTheBarIsRefused) {
 
 TEST(Bar, ABendOfMoreThanHalfATurnIsRefused) {
   EXPECT_THAT(complaint_about(bar({straight(0.05), arc(3.2, 0.02), straight(0.05)})),
-              HasSubstr("tube.piece[1].bend: found 183.346°, expected an angle from 0 to 180°"));
+              HasSubstr("tube.piece[1].bend_deg: found 183.346°, expected an angle from 0 to 180°"));
 }
 
 TEST(Bar, APieceIsEitherStraightOrAnArc) {
@@ -132,7 +132,7 @@ TEST(Bar, APieceIsEitherStraightOrAnArc) {
               HasSubstr("tube.piece[0].length: found 0, expected a positive"));
   Piece both = arc(1, 0.02);
   both.length = 0.1;
-  EXPECT_THAT(complaint_about(bar({both})), HasSubstr("tube.piece[0].bend: found 57.2958°, expected 0"));
+  EXPECT_THAT(complaint_about(bar({both})), HasSubstr("tube.piece[0].bend_deg: found 57.2958°, expected 0"));
 }
 
 TEST(Bar, AFlatEndNeedsAStraightPieceBeforeIt) {

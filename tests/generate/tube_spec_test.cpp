@@ -98,17 +98,17 @@ TEST(TubeSpec, SaysWhenTheShortestCylindersAreLongerThanTheTube) {
 
 TEST(TubeSpec, NamesAnglesThatAreNone) {
   EXPECT_EQ(complaint_after([](TubeSpec& s) { s.segments[0].bend_max = 181 * degree; }),
-            "tube.bend_max: found 181°, expected an angle from 0 to 180°");
+            "tube.bend_max_deg: found 181°, expected an angle from 0 to 180°");
   EXPECT_EQ(complaint_after([](TubeSpec& s) { s.segments[0].bend_min = -1 * degree; }),
-            "tube.bend_min: found -1°, expected an angle from 0 to 180°");
+            "tube.bend_min_deg: found -1°, expected an angle from 0 to 180°");
   EXPECT_EQ(complaint_after([](TubeSpec& s) {
               s.segments[0].bend_min = 45 * degree;
               s.segments[0].bend_max = 30 * degree;
             }),
-            "tube.bend_min: found 45°, expected at most bend_max, 30°");
+            "tube.bend_min_deg: found 45°, expected at most bend_max_deg, 30°");
   EXPECT_EQ(
       complaint_after([](TubeSpec& s) { s.segments[0].bend_max = std::numeric_limits<double>::quiet_NaN(); }),
-      "tube.bend_max: found nan°, expected an angle from 0 to 180°");
+      "tube.bend_max_deg: found nan°, expected an angle from 0 to 180°");
 }
 
 TEST(TubeSpec, NamesTheSegmentOfATreeThatIsWrong) {
