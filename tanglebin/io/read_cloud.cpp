@@ -14,7 +14,8 @@ namespace tanglebin {
 PointCloud read_cloud(std::istream& in, const std::string& name) {
   constexpr auto end_of_file = std::istream::traits_type::eof();
   const std::string expected =
-      "a PLY file, which begins with ply, or a PCD file, which begins with # or VERSION";
+      "a PLY file, which begins with ply, a PCD file, which begins with # or VERSION, or a depth image, PNG "
+      "or NPY";
   const auto first = in.peek();
   if (is_depth_image(in))
     throw InputError({name, 0, ""}, "a depth image", "a cloud, or also the camera that makes one of it");

@@ -45,11 +45,11 @@ TEST(ReadCloud, ReadsPcdWithoutAComment) {
 TEST(ReadCloud, RefusesEverythingElse) {
   EXPECT_EQ(
       complaint([] { read(""); }),
-      "cloud: found an empty file, expected a PLY file, which begins with ply, or a PCD file, which begins "
-      "with # or VERSION");
+      "cloud: found an empty file, expected a PLY file, which begins with ply, a PCD file, which begins "
+      "with # or VERSION, or a depth image, PNG or NPY");
   EXPECT_EQ(complaint([] { read("\x8aPNG"); }),
-            "cloud: found '\\x8a' at the start, expected a PLY file, which begins with ply, or a PCD file, "
-            "which begins with # or VERSION");
+            "cloud: found '\\x8a' at the start, expected a PLY file, which begins with ply, a PCD file, "
+            "which begins with # or VERSION, or a depth image, PNG or NPY");
   for (const std::string image : {"\x89PNG", "\x93NUMPY"}) {
     EXPECT_EQ(complaint([&] { read(image); }),
               "cloud: found a depth image, expected a cloud, or also the camera that makes one of it");
