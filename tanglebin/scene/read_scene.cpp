@@ -69,7 +69,7 @@ SceneCamera read_preset(const TomlTable& table) {
 
 // Without a size, as in BOP's scene_camera.json, only fx, fy, cx and cy say what a camera is.
 SceneCamera read_numbers(const TomlTable& table) {
-  if (has_any(table, keys(camera_size_fields))) {
+  if (has_any(table, all({keys(camera_size_fields), {"hfov_deg", "focal_length_px"}}))) {
     table.require({"width", "height"});
     if (!has_any(table, {"hfov_deg", "focal_length_px", "fx", "fy"})) table.require({"fx"});
   } else {

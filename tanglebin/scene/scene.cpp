@@ -28,7 +28,9 @@ void check_under(std::string_view table, const std::function<void()>& check) {
 }
 
 void validate_range(const LengthRange& range, double least, double most, const std::string& field) {
-  expect(range.min >= least && range.max <= most && range.min <= range.max && range.max > 0, field,
+  expect(!(range.min > range.max), field, fmt::format("min = {} and max = {}", range.min, range.max),
+         "a min of at most max");
+  expect(range.min >= least && range.max <= most && range.max > 0, field,
          range.min == range.max ? fmt::format("{} m", range.min)
                                 : fmt::format("{} to {} m", range.min, range.max),
          fmt::format("{} to {} m{}", least, most, hint_of_millimetres(range.max)));
