@@ -1016,9 +1016,9 @@ TEST(RecipeErrors, NameTheTubeThatCannotBeDrawn) {
   EXPECT_EQ(complaint_after("radius = 0.0125", "radius = -1"),
             "r.toml:5: set[0].tube.radius: found -1, expected a positive number");
   EXPECT_EQ(complaint_after("bend_max_deg = 30", "bend_max_deg = 181"),
-            "r.toml:8: set[0].tube.bend_max: found 181°, expected an angle from 0 to 180°");
+            "r.toml:8: set[0].tube.bend_max_deg: found 181°, expected an angle from 0 to 180°");
   EXPECT_EQ(complaint_after("bend_max_deg = 30", "bend_max_deg = 30\nbend_min_deg = 45"),
-            "r.toml:9: set[0].tube.bend_min: found 45°, expected at most bend_max, 30°");
+            "r.toml:9: set[0].tube.bend_min_deg: found 45°, expected at most bend_max_deg, 30°");
   EXPECT_EQ(
       complaint_after("cylinders_max = 5", "cylinders_max = 6", tree),
       "r.toml:17: set[0].tube.segment[1].cylinders_max: found 6 cylinders of at least 0.02 m, which make "
