@@ -9,42 +9,52 @@
 namespace tanglebin {
 namespace {
 
-bool is_shown(boost::locale::utf::code_point character) {
-  const bool is_control = character < 0x20 || (character >= 0x7f && character < 0xa0);
-  return !is_control && boost::locale::utf::is_valid_codepoint(character);
+// A character, or else a byte that is not UTF-8.
+struct Character {
+  std::string_view bytes;
+  bool is_printable;
+};
+
+Character first_character(std::string_view text) {
+  namespace utf = boost::locale::utf;
+  const char* next = text.begin();
+  const utf::code_point code = utf::utf_traits<char>::decode(next, text.end());
+  if (!utf::is_valid_codepoint(code)) return {text.substr(0, 1), false};
+  const bool is_control = code < 0x20 || (code >= 0x7f && code < 0xa0);
+  return {text.substr(0, static_cast<std::size_t>(next - text.begin())), !is_control};
 }
 
-std::string escaped(char byte) {
-  if (byte == '\n') return "\\n";
-  if (byte == '\t') return "\\t";
-  return fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+std::string hexadecimal(std::string_view bytes) {
+  std::string text;
+  for (const char byte : bytes) text += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+  return text;
+}
+
+std::string escaped(std::string_view bytes) {
+  if (bytes == "\n") return "\\n";
+  if (bytes == "\t") return "\\t";
+  return hexadecimal(bytes);
 }
 
 }  // namespace
 
 std::string excerpt(std::string_view text) {
-  constexpr std::size_t longest = 40;
+  constexpr int longest = 40;
   std::string shown = "'";
-  for (const char c : text.substr(0, longest)) {
-    const bool is_printable = c >= ' ' && c <= '~';
-    shown += is_printable ? std::string(1, c) : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+  for (int i = 0; i < longest && !text.empty(); ++i) {
+    const auto [bytes, is_printable] = first_character(text);
+    shown += is_printable ? std::string(bytes) : hexadecimal(bytes);
+    text.remove_prefix(bytes.size());
   }
-  return shown + (text.size() > longest ? "…'" : "'");
+  return shown + (text.empty() ? "'" : "…'");
 }
 
 std::string printable(std::string_view text) {
-  namespace utf = boost::locale::utf;
   std::string shown;
-  for (const char* place = text.begin(); place != text.end();) {
-    const char* next = place;
-    const utf::code_point character = utf::utf_traits<char>::decode(next, text.end());
-    if (!utf::is_valid_codepoint(character)) next = place + 1;
-    if (is_shown(character)) {
-      shown.append(place, next);
-    } else {
-      for (; place != next; ++place) shown += escaped(*place);
-    }
-    place = next;
+  while (!text.empty()) {
+    const auto [bytes, is_printable] = first_character(text);
+    shown += is_printable ? std::string(bytes) : escaped(bytes);
+    text.remove_prefix(bytes.size());
   }
   return shown;
 }

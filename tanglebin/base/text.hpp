@@ -10,7 +10,7 @@
 namespace tanglebin {
 
 /// Text from a file or the command line, for an error message: quoted, on one line, cut after 40 characters,
-/// with \xNN for characters that are not printable.
+/// with \xNN for control characters and bytes that are not UTF-8.
 std::string excerpt(std::string_view text);
 
 /// Text that a terminal shows as it stands: control characters and bytes that are not UTF-8 become \n, \t or

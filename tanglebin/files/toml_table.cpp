@@ -10,20 +10,13 @@
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/suggestion.hpp"
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/files/toml_text.hpp"
 
 namespace tanglebin {
 namespace {
 
 constexpr std::int64_t int_min = std::numeric_limits<int>::min();
 constexpr std::int64_t int_max = std::numeric_limits<int>::max();
-
-// Keys and values are ASCII; comments do not matter. toml++ 3.3 runs into __builtin_unreachable at other
-// characters where TOML allows none; it rejects '?' there.
-std::string ascii(std::string text) {
-  std::ranges::replace_if(
-      text, [](char c) { return static_cast<unsigned char>(c) > 127; }, '?');
-  return text;
-}
 
 // The line of what validate() calls `field`, or else of the innermost table around it. An angle's key has its
 // unit.
@@ -104,7 +97,7 @@ toml::table parse_toml(const std::string& text, const std::string& name) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin a file with it
   if (text.starts_with(byte_order_mark)) return parse_toml(text.substr(byte_order_mark.size()), name);
   try {
-    return toml::parse(ascii(text), name);
+    return toml::parse(checked_toml(text, name), name);
   } catch (const toml::parse_error& error) {
     // The description may quote the end of a line.
     std::string problem(error.description());

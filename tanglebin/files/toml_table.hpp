@@ -30,7 +30,7 @@ std::string description(const toml::node& node);
 std::string path_of(std::string_view table, std::string_view key);
 
 /// Calls `visit(path, node)` for a node and, as long as it returns true, for what is in the node: "set",
-/// "set[0]", "set[0].name", …
+/// "set[0]", "set[0].name", … Calls itself once per level, of which parse_toml() allows few.
 void for_each_node(const toml::node& node, const std::string& path,
                    const std::function<bool(const std::string&, const toml::node&)>& visit);
 
@@ -55,7 +55,8 @@ private:
   std::map<std::string, std::size_t> lines_;
 };
 
-/// Parses TOML. Bytes that are not ASCII count as '?'. Throws InputError with file and line.
+/// Parses TOML. Strings are UTF-8; outside of them and of comments, all is ASCII. Throws InputError with file
+/// and line, also if brackets and dots are nested more than 64 deep.
 toml::table parse_toml(const std::string& text, const std::string& name);
 
 /// Calls `call`, which validates what was read, and adds the file, and the line of the field or else of the

@@ -41,6 +41,13 @@ RC_GTEST_PROP(Printable, OfAnyBytesHasNoControlCharacterAndStaysAsItIs, (const s
   RC_ASSERT(printable(shown) == shown);
 }
 
+TEST(Excerpt, IsQuotedAndCutAfterFortyCharacters) {
+  EXPECT_EQ(excerpt("Röhren – 管 🙂"), "'Röhren – 管 🙂'");
+  EXPECT_EQ(excerpt("a\n\xe9\xc2\x9b"), "'a\\x0a\\xe9\\xc2\\x9b'");
+  EXPECT_EQ(excerpt(std::string(40, 'x')), "'" + std::string(40, 'x') + "'");
+  EXPECT_EQ(excerpt(std::string(39, 'x') + "öy"), "'" + std::string(39, 'x') + "ö…'");
+}
+
 TEST(InputError, ShowsNamesPrintable) {
   const InputError error({"a\x1b[2J\n.ply", 0, ""}, "is missing");
   EXPECT_STREQ(error.what(), "a\\x1b[2J\\n.ply: is missing");
