@@ -63,7 +63,7 @@ tanglebin_room(report               TARGET datasets    ROOMS base files geometry
                                                              dataset experiment pictures)
 tanglebin_room(export               TARGET exports     ROOMS base files geometry cloud io settle scan recipe runs
                                                              dataset)
-tanglebin_room(cli/terminal         TARGET program     ROOMS base runs dataset report)
+tanglebin_room(cli/terminal         TARGET program     ROOMS base files runs dataset report)
 tanglebin_room(cli/options          TARGET program     ROOMS base files geometry cloud io model/scene model profile
                                                              scene recipe runs dataset experiment report cli/terminal)
 tanglebin_room(cli                  TARGET program     ROOMS base files geometry cloud io model/scene model/axis

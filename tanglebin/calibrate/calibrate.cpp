@@ -53,17 +53,17 @@ void claim_directory(const fs::path& directory, const Recipe& recipe, const Cali
   const Json wanted = claim_json(recipe, settings);
   const std::optional<std::string> found = read_if_there(file);
   if (!found) {
-    write_file(file, wanted.dump() + '\n');
+    write_file(file, json_text(wanted) + '\n');
     return;
   }
   const JsonRecord record(*found, file.string(), 0);
   for (const auto& [key, value] : wanted.items()) {
     const Json its = record.json().value(key, Json());
-    if (its == value) continue;
+    if (json_text(its) == json_text(value)) continue;
     throw InputError({file.string(), 0, key},
                      fmt::format("the directory belongs to another calibration: it has {}, this one {}; "
                                  "remove it or name another profile",
-                                 its.dump(), value.dump()));
+                                 json_text(its), json_text(value)));
   }
 }
 

@@ -117,7 +117,8 @@ void SceneScores::make(const Parameters& parameters, const std::vector<CaseId>& 
 }
 
 void SceneScores::keep(const Parameters& parameters, const std::map<std::string, double>& scores) {
-  journal_.append({Json{{"part", part_}, {"parameters", Json(parameters)}, {"scores", Json(scores)}}.dump()});
+  journal_.append(
+      {json_text(Json{{"part", part_}, {"parameters", Json(parameters)}, {"scores", Json(scores)}})});
   for (const auto& [scene, score] : scores) known_[{parameters, scene}] = score;
 }
 

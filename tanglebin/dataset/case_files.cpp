@@ -53,7 +53,7 @@ void add_occlusions(const Recipe& recipe, const CaseId& id, const Scanner& scann
   if (!recipe.output.occlusions) return;
   const Occlusions seen = occlusions(tubes, whole_views(tubes, scanner.camera), recipe.bin, scanner.camera);
   files.push_back({file_of(id, "occlusions", "json", scanner.name),
-                   facts_json(seen, contacts(tubes, recipe.bin)).dump() + '\n'});
+                   json_text(facts_json(seen, contacts(tubes, recipe.bin))) + '\n'});
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ std::string to_json(const FailedCase& failed) {
   Json json = id_json(failed.id);
   json["seed"] = seed_text(failed.seed);
   json["reason"] = failed.reason;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 FailedCase failed_case(const std::string& json, const std::string& file, std::size_t line) {

@@ -44,7 +44,7 @@ std::string to_json(const DatasetSummary& summary) {
 }
 
 std::string to_json(const std::set<Versions>& made_with) {
-  return Json{{"made_with", json_of(made_with)}}.dump();
+  return json_text(Json{{"made_with", json_of(made_with)}});
 }
 
 std::set<Versions> made_with(const std::string& json, const std::string& file, std::size_t line) {

@@ -78,7 +78,7 @@ std::string to_json(const CaseRecord& record) {
   for (const FileRecord& file : record.files) {
     json["files"].push_back({{"path", file.path}, {"bytes", file.bytes}, {"sha256", file.sha256}});
   }
-  return json.dump();
+  return json_text(json);
 }
 
 std::string to_json(const TimesRecord& record) {
@@ -88,7 +88,7 @@ std::string to_json(const TimesRecord& record) {
   json["scan"] = record.times.scan;
   json["write"] = record.times.write;
   json["peak_memory"] = record.peak_memory;
-  return json.dump();
+  return json_text(json);
 }
 
 CaseRecord case_record(const std::string& json, const std::string& file, std::size_t line) {

@@ -148,7 +148,7 @@ std::string experiment_text(Json experiment, const DatasetPlace& place, std::siz
   experiment["dataset"] = place.directory;
   experiment["dataset_digest"] = place.digest;
   experiment["cases"] = cases;
-  return experiment.dump() + '\n';
+  return json_text(experiment) + '\n';
 }
 
 JsonRecord read_experiment(const fs::path& directory) {
@@ -161,11 +161,11 @@ void expect_same_experiment(const Json& wanted, const JsonRecord& found, const f
                             const std::string& remedy) {
   for (const auto& [key, value] : wanted.items()) {
     const Json other = found.json().value(key, Json());
-    if (other == value) continue;
+    if (json_text(other) == json_text(value)) continue;
     throw InputError({(directory / experiment_name).string(), 0, key},
                      fmt::format("the directory belongs to another {}: it has {}, this one {}{}",
                                  key == "program_sha256" ? "build of the program" : "experiment",
-                                 other.dump(), value.dump(), remedy));
+                                 json_text(other), json_text(value), remedy));
   }
 }
 
@@ -218,7 +218,7 @@ std::string result_json(const RunId& run, const CaseRecord& scene, const Modelle
   for (const TubeScore& tube : score.labels.tubes) json["each_tube"].push_back(tube_json(tube));
   json["counts"] = Json::object();
   for (const Step& step : modelled.model.steps) json["counts"][step.name] = step.count;
-  return json.dump();
+  return json_text(json);
 }
 
 std::string failure_json(const RunId& run, const CaseRecord& scene, const RunFailure& failure,
@@ -226,7 +226,7 @@ std::string failure_json(const RunId& run, const CaseRecord& scene, const RunFai
   Json json = result_head(run, scene);
   add_failure(json, failure);
   if (labels_sha256) json["labels_sha256"] = *labels_sha256;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 std::string times_json(const RunId& run, const Modelled& modelled, const Circumstances& circumstances) {
@@ -237,7 +237,7 @@ std::string times_json(const RunId& run, const Modelled& modelled, const Circums
   json["processor"] = circumstances.processor;
   json["jobs"] = circumstances.jobs;
   json["load"] = circumstances.load;
-  return json.dump();
+  return json_text(json);
 }
 
 std::string journal_line(const std::vector<std::string>& lines) {

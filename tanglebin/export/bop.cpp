@@ -189,7 +189,7 @@ std::string write_models(const ExportScene& scene, ExportFiles& files) {
   std::string lines;
   for (std::size_t i = 0; i < scene.tubes.size(); ++i) {
     files.write(model_file(scene.place, i), model_ply(scene.tubes[i]));
-    lines += fmt::format("\"{}\":{}\n", object_number(scene.place, i), model_info(scene.tubes[i]).dump());
+    lines += fmt::format("\"{}\":{}\n", object_number(scene.place, i), json_text(model_info(scene.tubes[i])));
   }
   return lines;
 }
@@ -232,7 +232,7 @@ void write_camera(const Camera& camera, ExportFiles& files) {
   const Json json{{"width", camera.width},    {"height", camera.height}, {"fx", camera.fx},
                   {"fy", camera.fy},          {"cx", camera.cx},         {"cy", camera.cy},
                   {"depth_scale", depth_step}};
-  files.seal(camera_file, json.dump() + '\n');
+  files.seal(camera_file, json_text(json) + '\n');
 }
 
 }  // namespace

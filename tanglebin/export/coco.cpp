@@ -111,8 +111,8 @@ void write_case(const ExportUnit& unit, const SceneReader& reader, ExportFiles& 
   for (const SceneView& view : scene.views)
     files.write(depth_file(scene.id, view.scanner), depth_png(depth_image(view.scan)));
   const CaseParts parts = parts_of(scene);
-  std::string lines = parts.images.dump() + '\n';
-  for (const Json& annotations : parts.annotations) lines += annotations.dump() + '\n';
+  std::string lines = json_text(parts.images) + '\n';
+  for (const Json& annotations : parts.annotations) lines += json_text(annotations) + '\n';
   files.seal(parts_file(scene.id), lines);
 }
 
@@ -137,8 +137,8 @@ void write_annotation_file(const std::vector<ExportUnit>& units, std::size_t ind
   const Json info{{"description", description}};
   const Json categories = Json::array({{{"id", tube_category}, {"name", "tube"}, {"supercategory", "tube"}}});
   files.seal(std::string(path), [&](const Sink& sink) {
-    sink(fmt::format("{{\"info\":{},\"licenses\":[],\"categories\":{},\n\"images\":", info.dump(),
-                     categories.dump()));
+    sink(fmt::format("{{\"info\":{},\"licenses\":[],\"categories\":{},\n\"images\":", json_text(info),
+                     json_text(categories)));
     write_list(units, 1, files, sink);
     sink(",\n\"annotations\":");
     write_list(units, index + 2, files, sink);

@@ -130,9 +130,10 @@ private:
     if (!fs::exists(index_file())) write_index_file(false, staging);
     const JsonRecord found = read_index();
     for (const auto& [key, value] : index_.items()) {
-      if (!found.has(key)) found.fail(key, "nothing", value.dump());
+      if (!found.has(key)) found.fail(key, "nothing", json_text(value));
       if (found.json().at(key) == value) continue;
-      found.fail(key, found.json().at(key).dump(), value.dump() + "; the directory has another export");
+      found.fail(key, json_text(found.json().at(key)),
+                 json_text(value) + "; the directory has another export");
     }
   }
 
@@ -146,7 +147,7 @@ private:
   void write_index_file(bool is_complete, const fs::path& staging) const {
     Json index = index_;
     index["complete"] = is_complete;
-    write_staged(index_file(), index.dump() + '\n', staging);
+    write_staged(index_file(), json_text(index) + '\n', staging);
     sync_directory(request_.directory);
   }
 

@@ -158,10 +158,10 @@ std::string hdf5_of(const ExportScene& scene, const SceneView& view) {
   file.add("depth", depth.depths, shape);
   file.add("instance_segmaps", each(labels, instance_of), shape);
   file.add("category_id_segmaps", each(labels, category_of), shape);
-  file.add("instance_attribute_maps", attributes_of(view).dump());
+  file.add("instance_attribute_maps", json_text(attributes_of(view)));
   file.add("whole_mask_starts", masks.starts, {masks.starts.size()});
   file.add("whole_mask_pixels", masks.pixels, {masks.pixels.size()});
-  file.add("scene", view_json(scene, view).dump());
+  file.add("scene", json_text(view_json(scene, view)));
   return file.bytes();
 }
 

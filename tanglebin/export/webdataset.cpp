@@ -34,7 +34,7 @@ void add_sample(ArchiveWriter& tar, const ExportScene& scene, const SceneView& v
   const std::string key = view_name(scene.id, view.scanner);
   const CloudOf what = scene.recipe.output.bin_points ? CloudOf::tubes_and_bin : CloudOf::tubes;
   tar.add(key + ".depth.png", depth_png(depth_image(view.scan)));
-  tar.add(key + ".json", sample_json(scene, view).dump());
+  tar.add(key + ".json", json_text(sample_json(scene, view)));
   tar.add(key + ".labels.png", label_png(label_image(view.scan)));
   tar.add(key + ".ply", bytes_of([&](std::ostream& out) {
             write_ply(out, cloud_from_scan(view.scan, what, scene.id.tubes, scene.recipe.output.properties));

@@ -19,6 +19,11 @@ Json parse_json(const std::string& text, const InputPlace& place) {
   return Json::parse(text, expect_shallow, /* allow_exceptions */ false);
 }
 
+std::string json_text(const Json& json) {
+  constexpr int in_one_line = -1;
+  return json.dump(in_one_line, ' ', /* ensure_ascii */ false, Json::error_handler_t::replace);
+}
+
 std::string seed_text(std::uint64_t seed) {
   return fmt::format("{:016x}", seed);
 }

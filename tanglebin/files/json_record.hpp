@@ -20,6 +20,10 @@ using Json = nlohmann::ordered_json;
 /// it is nested more than 64 deep: what reads JSON later may call itself once per level.
 Json parse_json(const std::string& text, const InputPlace& place);
 
+/// JSON in one line. Bytes of strings that are not UTF-8, as file names may have, become U+FFFD: JSON cannot
+/// hold them.
+std::string json_text(const Json& json);
+
 /// Seeds are hexadecimal text. Many JSON readers convert numbers to double, which cannot hold all 64 bits.
 std::string seed_text(std::uint64_t seed);
 

@@ -196,7 +196,7 @@ std::string scene_of(const JsonRecord& record) {
   record.texts("palette");
   record.object("points").whole_number("count");
   for (const JsonRecord& labelling : record.objects("labellings")) labelling.text("name");
-  return record.json().dump();
+  return json_text(record.json());
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ std::string all_runs(const Results& results) {
       paragraph("note", "This needs JavaScript. <code>results.jsonl</code> has the same numbers.");
   return section_html("runs", heading,
                       note + fmt::format("<div class=\"runs\">{}<div class=\"instead\">{}</div></div>\n",
-                                         json_script(columns_of(results).dump()), without));
+                                         json_script(json_text(columns_of(results))), without));
 }
 
 }  // namespace tanglebin

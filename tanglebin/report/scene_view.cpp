@@ -258,7 +258,7 @@ std::string scene_json(const ViewedScene& scene, std::size_t most_points) {
     json["labellings"].back()["score"] = beside.scores[i];
   }
   json["bin"] = support_json(scene.support);
-  return json.dump();
+  return json_text(json);
 }
 
 std::string scene_figure(const std::vector<std::string>& scenes_json, const std::string& instead_html) {

@@ -53,7 +53,7 @@ std::string draw_example(const Example& example, const RunId& run, const std::fi
   line["micro_recall"] = example.micro_recall;
   line["truth"] = truth;
   line["labels"] = labels;
-  return line.dump() + '\n';
+  return json_text(line) + '\n';
 }
 
 }  // namespace

@@ -94,6 +94,19 @@ TEST_F(RunExperiment, LeavesALineForEachRunInTheOrderOfMethodCaseAndRatio) {
   }
 }
 
+TEST_F(RunExperiment, OfADatasetInADirectoryThatIsNotUtf8IsResumed) {
+  const TemporaryDirectory place;
+  std::filesystem::copy(dataset_ / "", place / "d\xe9s", std::filesystem::copy_options::recursive);
+  const Dataset dataset = read_dataset(place / "d\xe9s");
+  settings_.methods = {{"theirs", LabelsDirectory{(place / "d\xe9s").string()}}};
+  settings_.ratios = {1};
+  const TemporaryDirectory results;
+  EXPECT_TRUE(run_experiment(dataset, settings_, cases(dataset), results.path(), 1).is_complete());
+  EXPECT_EQ(nlohmann::json::parse(bytes_of(results / "experiment.json")).at("dataset"),
+            (place / "d\ufffds").string());
+  EXPECT_TRUE(run_experiment(dataset, settings_, cases(dataset), results.path(), 1).is_complete());
+}
+
 TEST_F(RunExperiment, ModelsTheCloudOfEachScannerAndTellsWhatWasDrawnForTheCase) {
   std::istringstream text(
       "seed = 7\n[[scanner]]\nname = \"left\"\nwidth = 480\nheight = 300\nposition = [-0.1, 0, 2]\n"

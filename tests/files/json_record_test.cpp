@@ -43,6 +43,10 @@ TEST(ParseJson, NestedDeeperIsAnErrorHoweverDeepItIs) {
   }
 }
 
+TEST(JsonText, HasNoBytesThatAreNotUtf8) {
+  EXPECT_EQ(json_text({{"directory", "d\xe9s"}, {"größe", 1.5}}), R"({"directory":"d�s","größe":1.5})");
+}
+
 TEST(JsonRecord, TextThatIsMissingOrNullIsNone) {
   const JsonRecord record(R"({"scanner":"left","dataset":null,"cases":3})", "experiment.json", 2);
   EXPECT_EQ(record.text_if_there("scanner"), "left");

@@ -3,13 +3,13 @@
 #include <fmt/core.h>
 
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
 #include "tanglebin/base/text.hpp"
+#include "tanglebin/files/json_record.hpp"
 
 // Printing that never throws: a run goes on even if the terminal or the reader is gone.
 namespace tanglebin::cli {
@@ -42,8 +42,8 @@ void print_error(fmt::format_string<Values...> format, Values&&... values) {
 }
 
 /// Prints a line of JSON to standard output. Bytes that are not UTF-8, as in file names, are replaced.
-inline void print_json_line(const nlohmann::ordered_json& json) {
-  const std::string line = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+inline void print_json_line(const Json& json) {
+  const std::string line = json_text(json) + '\n';
   std::fwrite(line.data(), 1, line.size(), stdout);
 }
 
