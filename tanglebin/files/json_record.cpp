@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <charconv>
 #include <utility>
 
@@ -11,12 +12,18 @@ namespace tanglebin {
 
 Json parse_json(const std::string& text, const InputPlace& place) {
   constexpr int deepest = 64;
-  const auto expect_shallow = [&](int depth, Json::parse_event_t, const Json&) {
+  constexpr int most_keys = 10000;
+  std::array<int, deepest + 2> keys{};  // of the object at each depth
+  const auto expect_bounded = [&](int depth, Json::parse_event_t event, const Json&) {
     if (depth > deepest)
       throw InputError(place, "JSON nested too deep", fmt::format("at most {} levels", deepest));
+    const auto level = static_cast<std::size_t>(depth);
+    if (event == Json::parse_event_t::object_start) keys[level + 1] = 0;
+    if (event == Json::parse_event_t::key && ++keys[level] > most_keys)
+      throw InputError(place, "a JSON object with too many keys", fmt::format("at most {}", most_keys));
     return true;
   };
-  return Json::parse(text, expect_shallow, /* allow_exceptions */ false);
+  return Json::parse(text, expect_bounded, /* allow_exceptions */ false);
 }
 
 std::string json_text(const Json& json) {

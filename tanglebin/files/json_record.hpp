@@ -17,7 +17,8 @@ namespace tanglebin {
 using Json = nlohmann::ordered_json;
 
 /// Parses text as JSON; a value for which is_discarded() holds if it is none. Throws InputError at `place` if
-/// it is nested more than 64 deep: what reads JSON later may call itself once per level.
+/// it is nested more than 64 deep, since what reads JSON later may call itself once per level, or if an
+/// object has more than 10,000 keys, since Json looks for each of them among all.
 Json parse_json(const std::string& text, const InputPlace& place);
 
 /// JSON in one line. Bytes of strings that are not UTF-8, as file names may have, become U+FFFD: JSON cannot

@@ -1,5 +1,6 @@
 #include "tanglebin/files/json_record.hpp"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -40,6 +41,23 @@ TEST(ParseJson, NestedDeeperIsAnErrorHoweverDeepItIs) {
                 }),
                 "dataset.json:3: found JSON nested too deep, expected at most 64 levels");
     }
+  }
+}
+
+std::string object_of(int keys) {
+  std::string text = "{";
+  for (int i = 0; i < keys; ++i) text += fmt::format("{}\"{}\":{{\"a\":{}}}", i == 0 ? "" : ",", i, i);
+  return text + "}";
+}
+
+TEST(ParseJson, AnObjectMayHaveTenThousandKeys) {
+  EXPECT_EQ(parse_json(object_of(10000), {}).size(), 10000U);
+  EXPECT_EQ(parse_json("[" + object_of(6000) + "," + object_of(6000) + "]", {}).size(), 2U);
+  for (const std::string& text : {object_of(10001), "{\"b\":" + object_of(10001) + "}"}) {
+    EXPECT_EQ(complaint([&] {
+                parse_json(text, {"camera.json", 0, ""});
+              }),
+              "camera.json: found a JSON object with too many keys, expected at most 10000");
   }
 }
 
