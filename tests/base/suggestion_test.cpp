@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "tests/support/complaint.hpp"
 
 namespace tanglebin {
@@ -20,6 +22,12 @@ TEST(Suggestion, ElseListsWhatThereIsOrSaysWhatIsExpected) {
   EXPECT_EQ(suggestion("", {"merge", "generate"}), "expected one of merge, generate");
   EXPECT_EQ(suggestion("fly", {"merge", "generate"}, "a command"), "expected a command");
   EXPECT_EQ(suggestion("generat", {"merge", "generate"}, "a command"), "did you mean 'generate'?");
+}
+
+TEST(Suggestion, OfALongNameThereIsNone) {
+  const std::string name(64, 'x');
+  EXPECT_EQ(suggestion(name.substr(1), {name}), "did you mean '" + name.substr(0, 40) + "…'?");
+  EXPECT_EQ(suggestion(name + "x", {name}), "expected one of " + name);
 }
 
 TEST(Suggestion, RejectsAName) {
