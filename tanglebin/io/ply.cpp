@@ -29,6 +29,10 @@ using Words = std::vector<std::string_view>;
 
 constexpr std::string_view vertex = "vertex";
 
+// Names are compared with all before them.
+constexpr std::size_t most_elements = 100;
+constexpr std::size_t most_properties = 1000;  // of an element
+
 struct PlyHeader {
   std::optional<Encoding> encoding;
   std::vector<Element> elements;
@@ -131,7 +135,14 @@ void recognize(const CloudInput& input, Property& property, std::string_view typ
   }
 }
 
+void expect_fewer(const CloudInput& input, std::size_t count, std::size_t most, std::string_view what) {
+  if (count >= most)
+    throw InputError(input.place(), fmt::format("more than {} {}", most, what),
+                     fmt::format("at most {}", most));
+}
+
 void add_element(const CloudInput& input, const Words& words, PlyHeader& header) {
+  expect_fewer(input, header.elements.size(), most_elements, "elements");
   const Element element = parse_element(input, words);
   if (std::ranges::find(header.elements, element.name, &Element::name) != header.elements.end()) {
     throw InputError(input.place("element " + element.name), "given twice");
@@ -143,6 +154,7 @@ void add_property(const CloudInput& input, const Words& words, PlyHeader& header
   Property property = parse_property(input, words);
   if (header.elements.empty()) throw InputError(input.place(property.name), "property before any element");
   Element& element = header.elements.back();
+  expect_fewer(input, element.properties.size(), most_properties, "properties of an element");
   if (std::ranges::find(element.properties, property.name, &Property::name) != element.properties.end()) {
     throw InputError(input.place(property.name), "property given twice in element " + element.name);
   }

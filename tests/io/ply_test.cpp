@@ -20,7 +20,9 @@ namespace {
 
 using test::complaint;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -494,6 +496,25 @@ TEST(Ply, KeepsNormalsIntensitiesAndMixedPoints) {
   write_ply(file, cloud);
   const PointCloud read = read_ply(file, "cloud");
   expect_same_sensor_properties(read, cloud);
+}
+
+TEST(ReadPly, BoundsElementsAndTheirProperties) {
+  const auto properties = [](int count) {
+    std::string lines;
+    for (int i = 0; i < count; ++i) lines += "property float p" + std::to_string(i) + "\n";
+    return lines;
+  };
+  const auto elements = [](int count) {
+    std::string lines;
+    for (int i = 0; i < count; ++i) lines += "element e" + std::to_string(i) + " 0\nproperty char p\n";
+    return lines;
+  };
+  EXPECT_THAT(complaint_about(header(xyz + properties(997))), Not(HasSubstr("more than")));
+  EXPECT_EQ(complaint_about(header(xyz + properties(998))),
+            "cloud.ply:1004: found more than 1000 properties of an element, expected at most 1000");
+  EXPECT_THAT(complaint_about(header(xyz + elements(99))), Not(HasSubstr("more than")));
+  EXPECT_EQ(complaint_about(header(xyz + elements(100))),
+            "cloud.ply:205: found more than 100 elements, expected at most 100");
 }
 
 }  // namespace
