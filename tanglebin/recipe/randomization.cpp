@@ -132,6 +132,10 @@ RandomNumber read_list(const Range& range) {
   if (values == nullptr || values->empty()) {
     range.fail("a table", "{ one_of = [NUMBERS] } with at least one number");
   }
+  // The recipe is read again with each of them.
+  constexpr std::size_t most_values = 1000;
+  if (values->size() > most_values)
+    range.fail(fmt::format("one_of with {} numbers", values->size()), fmt::format("at most {}", most_values));
   RandomNumber number;
   number.one_of.reserve(values->size());
   for (const toml::node& value : *values) number.one_of.push_back(finite_number(value, range));

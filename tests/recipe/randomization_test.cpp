@@ -419,6 +419,11 @@ TEST(NormalNumbers, SayWhatIsWrong) {
             "r.toml:2: bin.height: found sigma = 0, expected a positive sigma");
   EXPECT_THAT(said("{ mean = 0.2 }"), HasSubstr("found a table without sigma"));
   EXPECT_THAT(said("{ mean = 0.2, sigma = 0.1, one_of = [1] }"), HasSubstr("found a table with 'mean'"));
+  std::string values = "0.2";
+  for (int i = 1; i < 1000; ++i) values += ", 0.2";
+  EXPECT_EQ(said("{ one_of = [" + values + "] }"), "none");
+  EXPECT_EQ(said("{ one_of = [" + values + ", 0.2] }"),
+            "r.toml:2: bin.height: found one_of with 1001 numbers, expected at most 1000");
   EXPECT_THAT(said("{ mean = 0.2, sigma = 0.1, median = 1 }"), HasSubstr("found a table with 'median'"));
   EXPECT_THAT(said("{ mean = inf, sigma = 0.1 }"), HasSubstr("found inf, expected finite numbers"));
   EXPECT_THAT(said("{ mean = 0.2, sigma = 0.01, min = 0.3 }"),
