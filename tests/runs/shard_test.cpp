@@ -91,6 +91,29 @@ TEST(Shard, VariablesThatContradictEachOtherAreAnErrorWithARemedy) {
                "JOB_COMPLETION_INDEX: found '-1'");
 }
 
+TEST(Shard, NumbersMayBeAsLargeAsAnIntHolds) {
+  const std::string most = "2147483647";
+  EXPECT_EQ(shard_in({{"JOB_COMPLETION_INDEX", "2147483646"}, {"JOB_COMPLETIONS", most}}),
+            most + "-of-" + most);
+  EXPECT_THAT(complaint([&] {
+                shard_in({{"JOB_COMPLETION_INDEX", most}, {"JOB_COMPLETIONS", most}});
+              }),
+              HasSubstr("JOB_COMPLETION_INDEX: found 2147483647, expected one of 2147483647 numbers"));
+  EXPECT_THAT(
+      complaint([&] {
+        shard_in({{"JOB_COMPLETION_INDEX", "2147483648"}});
+      }),
+      HasSubstr("JOB_COMPLETION_INDEX: found '2147483648', expected a whole number from 0 to 2147483647;"));
+  EXPECT_THAT(complaint([&] {
+                shard_in({{"SLURM_ARRAY_TASK_ID", most},
+                          {"SLURM_ARRAY_TASK_COUNT", most},
+                          {"SLURM_ARRAY_TASK_MIN", most},
+                          {"SLURM_ARRAY_TASK_STEP", most},
+                          {"SLURM_ARRAY_TASK_MAX", most}});
+              }),
+              HasSubstr("SLURM_ARRAY_TASK_MAX: found 2147483647, expected 4611686014132420609, the last of"));
+}
+
 TEST(Shard, OfAnArrayWithGapsIsAnErrorForEachOfItsTasks) {
   for (const std::string id : {"1", "3", "7"}) {
     EXPECT_EQ(complaint([&] {
