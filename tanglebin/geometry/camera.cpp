@@ -1,5 +1,7 @@
 #include "tanglebin/geometry/camera.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -17,11 +19,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 void require_pixels(int count, const char* field) {
-  expect(count > 0, field, std::to_string(count), "a positive number of pixels");
+  expect(count > 0, field, fmt::format("{}", count), "a positive number of pixels");
 }
 
 void require_focal_length(double pixels, const char* field) {
-  expect(std::isfinite(pixels) && pixels > 0, field, std::to_string(pixels),
+  expect(std::isfinite(pixels) && pixels > 0, field, fmt::format("{}", pixels),
          "a finite positive number of pixels");
 }
 
@@ -33,7 +35,7 @@ Camera tilted(Camera camera, double degrees) {
 }
 
 void require_coordinate(double pixels, const char* field) {
-  expect(std::isfinite(pixels), field, std::to_string(pixels), "a finite number of pixels");
+  expect(std::isfinite(pixels), field, fmt::format("{}", pixels), "a finite number of pixels");
 }
 
 }  // namespace

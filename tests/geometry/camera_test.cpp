@@ -10,6 +10,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tests/scan/scene.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace tanglebin {
 namespace {
@@ -113,6 +114,13 @@ TEST(Camera, DepthIsAlongItsView) {
   const Camera camera = downward_camera(10, 8, 1000, {0, 0, 1});
   EXPECT_NEAR(depth_of(camera, {0.3, -0.2, 0.25}), 0.75, 1e-12);
   EXPECT_NEAR(depth_of(camera, {0, 0, 1.5}), -0.5, 1e-12);
+}
+
+TEST(Camera, ValidationShowsTheNumberInItsShortestForm) {
+  Camera camera = camera_preset("paper");
+  camera.fx = -1e-9;
+  EXPECT_EQ(test::complaint([&] { validate(camera); }),
+            "scanner.fx: found -1e-09, expected a finite positive number of pixels");
 }
 
 TEST(Camera, ValidationNamesTheFieldThatMakesNoCamera) {
