@@ -48,7 +48,7 @@ Recipe recipe_of(const Dataset& dataset, const CaseId& id);
 /// A case read back.
 struct CaseData {
   std::string cloud_file;  ///< for messages
-  PointCloud cloud;        ///< of the recipe's first scanner, with the true labels
+  PointCloud cloud;        ///< of one of the recipe's scanners, with the true labels
   std::vector<Tube> tubes;
 };
 

@@ -106,15 +106,12 @@ std::string sha256_of(const std::optional<FoundFile>& labels, const std::optiona
   return sha256((labels ? sha256(labels->bytes) : "") + (tubes ? sha256(tubes->bytes) : ""));
 }
 
-Modelled model_by_labels(const LabelsDirectory& directory, const CaseData& data, const RunId& run,
-                         const SeenPoints& seen) {
-  FoundLabels found = find_labels(directory, run, data.cloud);
-  Modelled modelled = modelled_from(data, seen, std::move(found.labels), std::move(found.tubes));
-  modelled.labels_sha256 = std::move(found.sha256);
-  return modelled;
-}
-
-}  // namespace
+// The labels and tubes of a case in a LabelsDirectory, at a ratio.
+struct FoundLabels {
+  std::vector<std::int32_t> labels;  // for each point of the case's cloud; empty if there are tubes only
+  std::optional<std::vector<Tube>> tubes;
+  std::string sha256;  // of the files
+};
 
 FoundLabels find_labels(const LabelsDirectory& directory, const RunId& run, const PointCloud& cloud) {
   const fs::path folder = with_ratio(directory, run.ratio);
@@ -136,6 +133,16 @@ FoundLabels find_labels(const LabelsDirectory& directory, const RunId& run, cons
   }
   return found;
 }
+
+Modelled model_by_labels(const LabelsDirectory& directory, const CaseData& data, const RunId& run,
+                         const SeenPoints& seen) {
+  FoundLabels found = find_labels(directory, run, data.cloud);
+  Modelled modelled = modelled_from(data, seen, std::move(found.labels), std::move(found.tubes));
+  modelled.labels_sha256 = std::move(found.sha256);
+  return modelled;
+}
+
+}  // namespace
 
 void expect_there(const LabelsDirectory& directory, const std::vector<double>& ratios) {
   for (const double ratio : ratios) {

@@ -23,22 +23,12 @@ struct Modelled {
 Modelled model_by(const Entry& entry, const KnownScene& known, const CaseData& data, const RunId& run,
                   const ExperimentSettings& settings, const std::filesystem::path& scratch);
 
-/// The labels and tubes of a case in a LabelsDirectory, at a ratio.
-struct FoundLabels {
-  std::vector<std::int32_t> labels;  ///< for each point of the case's cloud; empty if there are tubes only
-  std::optional<std::vector<Tube>> tubes;
-  std::string sha256;  ///< of the files
-};
-
-/// Of a run. Labels are in A10/plys/1.ply, A10/pcds/1.pcd, A10/labels/1.npy or A10/labels/1.txt, tubes in
-/// A10/tube_configurations/1.txt, as in a dataset; of a scanner with a name in A10/left/plys/1.ply, …. Throws
-/// InputError if there are neither, and for what cannot be read.
-FoundLabels find_labels(const LabelsDirectory& directory, const RunId& run, const PointCloud& cloud);
-
 /// Throws InputError unless there is the directory for each of the ratios.
 void expect_there(const LabelsDirectory& directory, const std::vector<double>& ratios);
 
-/// The checksum of the files that find_labels() would read; empty if there are none.
+/// The checksum of a run's files. Labels are in A10/plys/1.ply, A10/pcds/1.pcd, A10/labels/1.npy or
+/// A10/labels/1.txt, tubes in A10/tube_configurations/1.txt, as in a dataset; of a scanner with a name in
+/// A10/left/plys/1.ply, …. Empty if there are none.
 std::string labels_sha256(const LabelsDirectory& directory, const RunId& run);
 
 }  // namespace tanglebin

@@ -17,9 +17,9 @@ struct SceneScore {
   bool repeats_truth = false;  ///< the labels are the cloud's own at every point: perhaps copied by mistake
 };
 
-/// Scores the labels of a case's cloud in a directory (find_labels()). A case without labels or with such
-/// that cannot be read has a failure. Throws InputError if there is no such directory, and as
-/// read_seen_case() does.
+/// Scores the labels of a case's cloud in a directory, whose files labels_sha256() lists. A case without
+/// labels or with such that cannot be read has a failure. Throws InputError if there is no such directory,
+/// and as read_seen_case() does.
 SceneScore score_scene(const Dataset& dataset, const SeenCase& seen, const LabelsDirectory& labels);
 
 /// The means over the scenes of a set with the same number of tubes, as a scanner sees them. A scene that

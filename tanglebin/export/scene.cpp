@@ -91,12 +91,9 @@ Json view_json(const ExportScene& scene, const SceneView& view) {
   if (!view.scanner.empty()) json["scanner"] = view.scanner;
   json["seed"] = seed_text(scene.seed);
   json["camera"] = Json::parse(camera_json(view.scan.camera));
-  json["occlusions"] = facts_of(scene, view);
+  // The same as occlusions/N.json of a dataset.
+  json["occlusions"] = facts_json(view.occlusions, scene.contacts);
   return json;
-}
-
-Json facts_of(const ExportScene& scene, const SceneView& view) {
-  return facts_json(view.occlusions, scene.contacts);
 }
 
 }  // namespace tanglebin

@@ -63,7 +63,4 @@ std::string view_name(const CaseId& id, const std::string& scanner);
 /// What a case's view is, and what hides and touches what: the JSON that all formats have (docs/export.md).
 Json view_json(const ExportScene& scene, const SceneView& view);
 
-/// The same as occlusions/N.json of a dataset.
-Json facts_of(const ExportScene& scene, const SceneView& view);
-
 }  // namespace tanglebin

@@ -2,11 +2,9 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <istream>
 
 namespace tanglebin::cloud_format {
-namespace {}  // namespace
 
 std::optional<std::string_view> CloudInput::next_line() {
   stream_.getline(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));

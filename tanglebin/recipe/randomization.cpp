@@ -142,6 +142,12 @@ RandomNumber read_list(const Range& range) {
   return number;
 }
 
+// Does each case of a set draw its number of tubes from a node with this path? Such a node is no setting: it
+// decides which cases there are.
+bool is_number_of_tubes(std::string_view path) {
+  return path.starts_with("set[") && path.ends_with("].tubes");
+}
+
 bool is_of_a_tube(std::string_view path) {
   return path.starts_with("set[") &&
          (path.find("].tube.") != std::string_view::npos || path.find("].tube[") != std::string_view::npos);
@@ -327,10 +333,6 @@ std::string_view key_in(std::string_view path) {
 bool is_whole(std::string_view path) {
   return !table_in(path).empty() && holds(whole_keys, key_in(path)) &&
          !path.starts_with("bin.");  // "bin.height" is a length
-}
-
-bool is_number_of_tubes(std::string_view path) {
-  return path.starts_with("set[") && path.ends_with("].tubes");
 }
 
 RandomNumber read_random_number(const toml::table& table, const std::string& path, const TomlSource& source) {

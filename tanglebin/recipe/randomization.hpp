@@ -34,10 +34,6 @@ RandomNumber read_random_number(const toml::table& table, const std::string& pat
 /// The inverse of read_random_number().
 toml::table random_table(const RandomNumber& number, bool whole);
 
-/// Does each case of a set draw its number of tubes from a node with this path? Such a node is no setting: it
-/// decides which cases there are.
-bool is_number_of_tubes(std::string_view path);
-
 /// Draws the number of tubes of a set's case.
 int draw_number_of_tubes(const Recipe& recipe, const SetRecipe& set, int number);
 

@@ -65,6 +65,10 @@ void cut_torn_line(const fs::path& file) {
   if (error) throw_refusal(file, "cannot write", error);
 }
 
+fs::path journal_of(const fs::path& directory, const std::string& name) {
+  return directory / (stem_of(name) + std::string(extension));
+}
+
 }  // namespace
 
 Journal::Journal(const fs::path& directory, const std::string& name)
@@ -115,10 +119,6 @@ std::set<fs::path> besides_journals(const fs::path& directory) {
   }
   for (const fs::path& journal : journals_in(directory)) others.erase(journal);
   return others;
-}
-
-fs::path journal_of(const fs::path& directory, const std::string& name) {
-  return directory / (stem_of(name) + std::string(extension));
 }
 
 std::vector<fs::path> journals_in_use(const std::vector<fs::path>& journals) {

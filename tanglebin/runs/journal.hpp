@@ -53,9 +53,6 @@ std::vector<std::filesystem::path> journals_in(const std::filesystem::path& dire
 /// are never among it.
 std::set<std::filesystem::path> besides_journals(const std::filesystem::path& directory);
 
-/// The file of the journal of this name.
-std::filesystem::path journal_of(const std::filesystem::path& directory, const std::string& name);
-
 /// Those of the journals whose runs are in progress.
 std::vector<std::filesystem::path> journals_in_use(const std::vector<std::filesystem::path>& journals);
 

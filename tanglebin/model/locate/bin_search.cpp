@@ -14,7 +14,6 @@ namespace tanglebin {
 namespace {
 
 using Eigen::Isometry3d;
-using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
