@@ -41,6 +41,17 @@ struct ScoreArguments {
   bool confusion = false;
 };
 
+void expect_printable_confusion(const Score& score) {
+  constexpr std::size_t most_cells = 10'000'000;
+  const std::size_t tubes = score.tubes.size();
+  const std::size_t columns = score.confusion.segments.size() + 1;
+  if (tubes * columns > most_cells) {
+    throw InputError({"", 0, "--confusion"},
+                     fmt::format("a matrix of {} by {}", counted(tubes, "tube"), counted(columns, "label")),
+                     fmt::format("at most {} cells", most_cells));
+  }
+}
+
 // A row for each tube; a column for each predicted label, then one for null.
 std::vector<std::vector<std::int64_t>> confusion_matrix(const Score& score) {
   const std::size_t segments = score.confusion.segments.size();
@@ -143,6 +154,7 @@ void score_labels(const ScoreArguments& arguments) {
   const PointCloud truth = read_input(arguments.truth, read);
   const PointCloud labelled = read_input(arguments.labelled, read);
   const Score score = score_clouds(truth, arguments.truth, labelled, arguments.labelled);
+  if (arguments.confusion) expect_printable_confusion(score);
   if (repeats_truth(truth, labelled, arguments.labelled)) {
     print_error(
         "tanglebin: warning: {}: its {} are the truth's own at every point; are they the result to score?\n",

@@ -122,6 +122,30 @@ TEST_F(ScoreCommand, PrintsTheConfusionMatrixOnRequest) {
   EXPECT_EQ(json.at("points"), nlohmann::json({{26, 2, 0, 11}, {0, 24, 2, 7}}));
 }
 
+// A cloud of n points in a row, each with a label of its own.
+std::string each_its_own_label(int n) {
+  std::string text = fmt::format(
+      "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+      "property int label\nend_header\n",
+      n);
+  for (int i = 1; i <= n; ++i) text += fmt::format("{} 0 0 {}\n", i, i);
+  return text;
+}
+
+TEST_F(ScoreCommand, RefusesAConfusionMatrixBeyondAllReason) {
+  write("many.ply", each_its_own_label(3200));
+  EXPECT_EQ(score("many.ply", "many.ply").status, 0);
+  for (const char* options : {"--confusion", "--confusion --json"}) {
+    const ProgramResult refused = score("many.ply", "many.ply", options);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_EQ(
+        refused.err,
+        "tanglebin: --confusion: found a matrix of 3200 tubes by 3201 labels, expected at most 10000000 "
+        "cells\n");
+    EXPECT_EQ(refused.out, "");
+  }
+}
+
 TEST_F(ScoreCommand, WarnsOfTheTruthsOwnLabels) {
   const ProgramResult forgotten = score("truth.ply", "truth.ply", "--json");
   EXPECT_EQ(forgotten.status, 0);
