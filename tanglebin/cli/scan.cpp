@@ -97,15 +97,6 @@ void print_summary(const ScanArguments& arguments, const Scan& view, const std::
             counted(tubes.size(), "tube"), points[bin_label], arguments.with_bin ? "" : " (left out)");
 }
 
-// A manifest has 16 hexadecimal digits, which 0.1.0 took without 0x.
-std::uint64_t seed_of(const ScanArguments& arguments) {
-  constexpr std::size_t digits_in_manifest = 16;
-  if (arguments.seed.size() != digits_in_manifest || arguments.seed.starts_with("0x"))
-    return parse_seed(arguments.seed, "--seed");
-  print_error("tanglebin: --seed {0} is now --seed 0x{0}\n", arguments.seed);
-  return parse_seed("0x" + arguments.seed, "--seed");
-}
-
 std::string camera_file(const std::string& depth) {
   return std::filesystem::path(depth).replace_extension(".json").string();
 }
@@ -195,7 +186,7 @@ Setting setting_of(const ScanArguments& arguments) {
 void scan_configuration(const ScanArguments& arguments) {
   expect_outputs(outputs(arguments), inputs_with(arguments.scene, {arguments.configuration}));
   const auto [scanner, support] = setting_of(arguments);
-  const std::uint64_t seed = seed_of(arguments);
+  const std::uint64_t seed = parse_seed(arguments.seed, "--seed");
   const std::vector<Tube> tubes =
       read_input(arguments.configuration, [](auto&&... from) { return read_configuration(from...); });
   const Scan view = scan(tubes, support, scanner.camera, scanner.sensor, seed, scanner.name);

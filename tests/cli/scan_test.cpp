@@ -198,17 +198,19 @@ TEST_F(ScanCommand, TheExtensionSaysTheFormat) {
   EXPECT_EQ(read_pcd(directory_ / "CLOUD.PCD").width, 1920U);
 }
 
-// A manifest's seeds have 16 hexadecimal digits; 0.1.0 took them without 0x.
-TEST_F(ScanCommand, TakesAManifestsSeedWithoutItsPrefixForNow) {
+TEST_F(ScanCommand, ReadsASeedOfAnyLengthAsDecimalUnlessItBeginsWith0x) {
   const std::string command =
       "scan " + configuration_.string() + " --out - --parameter scanner.dropout=0.5 --seed ";
-  const auto old = run_program(command + "00000000000000a7");
-  EXPECT_EQ(old.err, "tanglebin: --seed 00000000000000a7 is now --seed 0x00000000000000a7\n");
-  const auto current = run_program(command + "0xa7");
-  EXPECT_EQ(current.err, "");
-  EXPECT_EQ(old.out, current.out);
-  EXPECT_EQ(run_program(command + "167").out, current.out);
-  EXPECT_NE(run_program(command + "168").out, current.out);
+  const auto decimal = run_program(command + "0000000000000167");
+  EXPECT_EQ(decimal.err, "");
+  EXPECT_EQ(decimal.out, run_program(command + "167").out);
+  EXPECT_EQ(decimal.out, run_program(command + "0x00000000000000a7").out);
+  EXPECT_NE(decimal.out, run_program(command + "168").out);
+  const auto without_prefix = run_program(command + "00000000000000a7");
+  EXPECT_EQ(without_prefix.status, 2);
+  EXPECT_EQ(without_prefix.err,
+            "tanglebin: --seed: found '00000000000000a7', expected a seed of at most 64 bits: decimal, or "
+            "hexadecimal after 0x\n");
 }
 
 TEST_F(ScanCommand, StandardInputAndOutputTakeAndGiveTheSame) {
