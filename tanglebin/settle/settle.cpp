@@ -84,7 +84,7 @@ Settled settle(const std::vector<Tube>& tubes, const Bin& bin, const SettleSetti
     world.step({.iterations = settings.iterations, .damping = damping});
     at_step(world.time());
     if (!are_over_the_bin(world.centres_of_mass(), bin)) {
-      fault = "a tube left the bin";
+      fault = tube_left_the_bin;
       break;
     }
     const double speed = world.fastest_node();

@@ -36,6 +36,9 @@ struct SettleSettings {
   bool operator==(const SettleSettings&) const = default;
 };
 
+/// The fault of a heap of which a tube left the bin, while it fell.
+inline constexpr const char* tube_left_the_bin = "a tube left the bin";
+
 /// The result of a simulation.
 struct Settled {
   std::vector<Tube> tubes;       ///< at the end, rounded to whole nanometres as in the files

@@ -65,10 +65,9 @@ std::string no_valid_scene(const CaseId& id, const std::vector<Rejection>& rejec
 // If a tube falls out each time, the tubes do not fit. Other faults, such as a heap that creeps, may be bad
 // luck.
 bool is_hopeless(const std::vector<Rejection>& rejections, int attempts) {
-  constexpr const char* overflow = "a tube left the bin";  // as settle() says it
   constexpr int share = 4;
   return static_cast<int>(rejections.size()) == (attempts + share - 1) / share &&
-         std::ranges::all_of(rejections, [](const Rejection& r) { return r.fault == overflow; });
+         std::ranges::all_of(rejections, [](const Rejection& r) { return r.fault == tube_left_the_bin; });
 }
 
 }  // namespace
