@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tanglebin/base/bytes_of.hpp"
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/calibrate/scene_scores.hpp"
 #include "tanglebin/experiment/learn_links.hpp"
 #include "tanglebin/files/safe_file.hpp"
@@ -59,8 +60,12 @@ Parameters learn_links_once(const Dataset& dataset, const std::vector<CaseId>& s
                }));
     return std::string();
   };
-  if (!std::filesystem::exists(file) && !run_in_workers(1, 1, learn, observer)) throw CalibrationStopped();
-  if (!std::filesystem::exists(file)) return {};  // the worker failed
+  WorkersObserver or_throw = observer;
+  or_throw.failed = [&](const TaskFailure& failure) {
+    observer.failed(failure);
+    throw SystemError(file.string(), "cannot learn the weights of links: " + failure.reason);
+  };
+  if (!std::filesystem::exists(file) && !run_in_workers(1, 1, learn, or_throw)) throw CalibrationStopped();
   return read_profile(file).parameters;
 }
 

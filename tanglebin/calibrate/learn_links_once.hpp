@@ -11,7 +11,8 @@ namespace tanglebin {
 
 /// All weights of links, as parameters, learned from these scenes (learn_links.hpp) in a worker process; none
 /// of a kind of link that the scenes do not have. They are kept in `file`, a profile, and not learned again.
-/// Throws CalibrationStopped if SIGINT or SIGTERM ended it.
+/// Throws CalibrationStopped if SIGINT or SIGTERM ended it, and SystemError with the reason if the worker
+/// fails.
 Parameters learn_links_once(const Dataset& dataset, const std::vector<CaseId>& scenes,
                             const std::filesystem::path& file, const WorkersObserver& observer);
 
