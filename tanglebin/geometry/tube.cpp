@@ -42,6 +42,7 @@ void validate_lines(const Tube& tube) {
 }
 
 void validate(const Tube& tube) {
+  expect_of_tube(tube.id >= 1, "id", tube, fmt::format("{}", tube.id), "1 or more");
   expect_of_tube(std::isfinite(tube.radius) && tube.radius > 0, "radius", tube,
                  fmt::format("{}", tube.radius), "a positive number of metres");
   validate_lines(tube);

@@ -33,9 +33,9 @@ struct Tube {
   bool flat_ends = false;  ///< cut flat at the outermost nodes, not rounded beyond them
 };
 
-/// Throws InputError naming the field and the tube's id unless it is a tube: a positive radius, positions
-/// that are finite, edges between its nodes that make a tree. Functions of other rooms that take tubes of any
-/// origin call it, and throw as it does.
+/// Throws InputError naming the field and the tube's id unless it is a tube: an id of 1 or more, a positive
+/// radius, positions that are finite, edges between its nodes that make a tree. Functions of other rooms that
+/// take tubes of any origin call it, and throw as it does.
 void validate(const Tube& tube);
 void validate(const std::vector<Tube>& tubes);
 

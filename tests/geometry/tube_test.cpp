@@ -1,5 +1,6 @@
 #include "tanglebin/geometry/tube.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
@@ -49,6 +50,10 @@ TEST(Tube, WhatIsNoTubeIsNamed) {
     return test::complaint([&] { validate(std::vector{tube, changed}); });
   };
   EXPECT_EQ(complaint_of([](Tube&) {}), "none");
+  for (const int id : {0, -1}) {
+    EXPECT_EQ(complaint_of([id](Tube& its) { its.id = id; }),
+              fmt::format("id of tube {0}: found {0}, expected 1 or more", id));
+  }
   EXPECT_EQ(complaint_of([](Tube& its) { its.radius = 0; }),
             "radius of tube 4: found 0, expected a positive number of metres");
   EXPECT_EQ(complaint_of([](Tube& its) { its.nodes[1].position.y() = std::nan(""); }),
