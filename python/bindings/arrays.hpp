@@ -80,18 +80,13 @@ std::vector<Item> items_of(const py::array& any, const char* field) {
   return items;
 }
 
-/// Copies an array of integers of any type. Throws InputError naming `field` for other types and for numbers
-/// that are out of range.
-template <typename Integer>
-std::vector<Integer> integers_of(const py::array& array, const char* field) {
-  const char kind = array.dtype().kind();
-  if (kind != 'i' && kind != 'u' && kind != 'b')
-    throw InputError({"", 0, field}, "an array of " + std::string(py::str(array.dtype())),
-                     "an array of integers");
-  const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> wide(array);
+/// Copies an array of integers of the type `Wide`, or of one that it includes.
+template <typename Integer, typename Wide>
+std::vector<Integer> narrowed(const py::array_t<Wide, py::array::c_style | py::array::forcecast>& wide,
+                              const char* field) {
   std::vector<Integer> integers(static_cast<std::size_t>(wide.size()));
   for (std::size_t i = 0; i < integers.size(); ++i) {
-    const std::int64_t value = wide.data()[i];
+    const Wide value = wide.data()[i];
     if (!std::in_range<Integer>(value))
       throw InputError({"", 0, field}, std::to_string(value),
                        fmt::format("an integer from {} to {}", std::numeric_limits<Integer>::min(),
@@ -99,6 +94,17 @@ std::vector<Integer> integers_of(const py::array& array, const char* field) {
     integers[i] = static_cast<Integer>(value);
   }
   return integers;
+}
+
+/// Copies an array of integers of any type. Throws InputError naming `field` for other types and for numbers
+/// that are out of range.
+template <typename Integer>
+std::vector<Integer> integers_of(const py::array& array, const char* field) {
+  const char kind = array.dtype().kind();
+  if (kind == 'u') return narrowed<Integer, std::uint64_t>(array, field);
+  if (kind == 'i' || kind == 'b') return narrowed<Integer, std::int64_t>(array, field);
+  throw InputError({"", 0, field}, "an array of " + std::string(py::str(array.dtype())),
+                   "an array of integers");
 }
 
 /// A pose as a 4 x 4 matrix, and the inverse, which throws InputError naming `field`.

@@ -81,6 +81,10 @@ def test_an_image_of_points_is_an_organized_cloud():
         (dict(points=np.zeros((4, 3)), labels=[1, 2]), "labels: found 2, expected one for each of 4 points"),
         (dict(points=np.zeros((1, 3)), labels=[0.5]), "labels: found an array of float64, expected an array of integ"),
         (dict(points=np.zeros((1, 3)), labels=[2**40]), "labels: found 1099511627776, expected an integer from"),
+        (
+            dict(points=np.zeros((1, 3)), labels=np.array([2**64 - 1], np.uint64)),
+            "labels: found 18446744073709551615, expected an integer from",
+        ),
         (dict(points=np.zeros((1, 3)), labels=[-2]), "labels: found -2, expected -1, 0, 1"),
         (dict(points=np.zeros((1, 3)), colors=[[0, 0, 256]]), "colors: found 256, expected an integer from 0 to 255"),
     ],

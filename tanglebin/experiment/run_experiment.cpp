@@ -116,6 +116,15 @@ FinishedRuns finished_runs(const fs::path& directory, const RunGrid& grid) {
   return finished;
 }
 
+// The error that ended the run is the one to report; the journal keeps what cannot be written now.
+void fold_after_an_error(const fs::path& directory, const RunGrid& grid) {
+  try {
+    fold_journal(finished_runs(directory, grid));
+  } catch (const std::exception&) {
+    return;
+  }
+}
+
 }  // namespace
 
 ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSettings& settings,
@@ -184,7 +193,7 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
                     .tick = [&] { observer.progress(summary.progress); },
                     .stopping = observer.stopping});
   } catch (...) {
-    fold_journal(finished_runs(directory, grid));
+    fold_after_an_error(directory, grid);
     throw;
   }
   fold_journal(finished_runs(directory, grid));
