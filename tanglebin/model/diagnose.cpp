@@ -273,17 +273,27 @@ private:
                      is_one ? "Is it a foreign part, or" : "Are they foreign parts, or"));
   }
 
-  // Where a tube reaches the image's border, it may go on.
-  bool leaves_image(const Tube& tube) const {
-    return std::ranges::any_of(tube.nodes, [&](const Node& node) {
-      constexpr double near = 2;  // radii
-      const Camera& camera = known_.camera;
-      const auto at = project(camera, node.position);
-      if (!at) return true;
-      const double margin = near * tube.radius * camera.fx / depth_of(camera, node.position);
-      return at->x() < margin || at->x() > camera.width - 1 - margin || at->y() < margin ||
-             at->y() > camera.height - 1 - margin;
-    });
+  bool is_at_border(const Eigen::Vector3d& position, double radius) const {
+    constexpr double near = 2;  // radii
+    const Camera& camera = known_.camera;
+    const auto at = project(camera, position);
+    if (!at) return true;
+    const double margin = near * radius * camera.fx / depth_of(camera, position);
+    return at->x() < margin || at->x() > camera.width - 1 - margin || at->y() < margin ||
+           at->y() > camera.height - 1 - margin;
+  }
+
+  // Where a tube ends at the image's border, it may go on.
+  bool may_go_on(const Tube& tube) const {
+    std::vector<int> edges(tube.nodes.size());
+    for (const Edge& edge : tube.edges) {
+      ++edges[edge.from];
+      ++edges[edge.to];
+    }
+    for (std::size_t i = 0; i < tube.nodes.size(); ++i) {
+      if (edges[i] < 2 && is_at_border(tube.nodes[i].position, tube.radius)) return true;
+    }
+    return false;
   }
 
   void doubt_lengths() {
@@ -294,7 +304,7 @@ private:
     for (std::size_t i = 0; i < model_.tubes.size(); ++i) {
       const TubeEvidence& evidence = model_.evidence[i];
       complete += evidence.length_fit == LengthFit::complete ? 1 : 0;
-      if (evidence.length_fit == LengthFit::too_short && !leaves_image(model_.tubes[i])) ++too_short;
+      if (evidence.length_fit == LengthFit::too_short && !may_go_on(model_.tubes[i])) ++too_short;
       too_long += evidence.length_fit == LengthFit::too_long ? 1 : 0;
       longest = std::max(longest, evidence.length);
     }

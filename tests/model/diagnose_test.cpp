@@ -293,6 +293,18 @@ TEST(Diagnose, DoesNotDoubtTheLengthOfTubesThatTheImageCutsOff) {
   EXPECT_THAT(text_of(diagnose(view.cloud, scene, model, 1)), Not(HasSubstr("shorter")));
 }
 
+// Between its ends, a tube may pass by the border.
+TEST(Diagnose, DoubtsTheLengthOfTubesThatEndInTheImage) {
+  const View view = right_view();
+  Model model = model_of(view);
+  for (TubeEvidence& tube : model.evidence) tube.length_fit = LengthFit::too_short;
+  for (Tube& tube : model.tubes) {
+    tube.nodes = {tube.nodes.front(), {3, {5, 5, 0}}, tube.nodes.back()};
+    tube.edges = {{0, 1, 1}, {1, 2, 2}};
+  }
+  EXPECT_THAT(text_of(diagnose(view.cloud, view.scene, model, 1)), HasSubstr("4 of 4 tubes are shorter"));
+}
+
 TEST(Diagnose, DoesNotAskForTheFloorToBeOfTubesWhereNoneIsKnown) {
   View view = right_view();
   view.scene.support = {.shape = Support::Shape::nothing};
