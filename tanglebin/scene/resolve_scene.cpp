@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/millimetres.hpp"
 #include "tanglebin/model/axis/radius.hpp"
 #include "tanglebin/scene/image_of_cloud.hpp"
 
@@ -276,6 +277,23 @@ void find_kinds(const Scene& scene, const std::function<void()>& at_place, Resol
   if (scene.tubes.empty()) resolved.notes.emplace_back("the tubes' length is not known");
 }
 
+// A bin's size limits the length in validate(KnownScene). A tube may be longer than what is seen of it, but
+// not many times.
+void expect_length_of_size(const TubeKind& kind, double size) {
+  constexpr double too_many_times = 10;
+  if (!kind.length_is_known() || kind.length() <= too_many_times * size) return;
+  throw InputError({"", 0, kind.branches() ? "tree" : "length"}, fmt::format("{} m", kind.length()),
+                   fmt::format("at most {:.3g} m, ten times the size of the cloud{}", too_many_times * size,
+                               hint_of_millimetres(kind.length())));
+}
+
+void expect_lengths_of_size(const ResolvedScene& resolved) {
+  if (resolved.known.support.shape == Support::Shape::bin) return;
+  const std::optional<double> size = extent(resolved.cloud);
+  if (!size) return;
+  for (const TubeKind& kind : resolved.known.kinds) expect_length_of_size(kind, *size);
+}
+
 }  // namespace
 
 ResolvedScene resolve_without_tubes(const Scene& scene, const PointCloud& cloud) {
@@ -299,6 +317,7 @@ ResolvedScene resolve(const Scene& scene, const PointCloud& cloud, const std::fu
   ResolvedScene resolved = resolve_without_tubes(scene, cloud);
   find_kinds(scene, at_place, resolved);
   validate(resolved.known);
+  expect_lengths_of_size(resolved);
   return resolved;
 }
 

@@ -185,6 +185,19 @@ TEST_F(ToldScene, RangesOfLengthsHaveTheirEnds) {
   EXPECT_TRUE(kind.flat_ends);
 }
 
+TEST_F(ToldScene, ALengthManyTimesTheSizeOfTheCloudIsRefused) {
+  Scene scene = with_camera(whole_camera());
+  for (const Support::Shape shape : {Support::Shape::plane, Support::Shape::nothing}) {
+    scene.support->shape = shape;
+    scene.tubes[0].length = LengthRange{244, 244};
+    EXPECT_THAT(complaint([&] { resolve(scene, cloud()); }),
+                AllOf(HasSubstr("length: found 244 m, expected at most "),
+                      HasSubstr("ten times the size of the cloud; for 244 mm write 0.244")));
+    scene.tubes[0].length = LengthRange{0.2, 3};  // a hose, of which a part is seen
+    EXPECT_EQ(resolve(scene, cloud()).known.kinds.at(0).length(), 3);
+  }
+}
+
 TEST_F(ToldScene, WhatTheCloudDoesNotShowMustBeSaid) {
   const Scene told = with_camera(whole_camera());
   Scene in_world = with_camera({.intrinsics = intrinsics_of(camera()), .frame = CloudFrame::world});
