@@ -58,7 +58,8 @@ public:
   std::vector<Finding> findings() {
     if (!has_points()) return findings_;
     look_for_points_in_scene();
-    if (findings_.empty()) look_for_tubes();
+    const bool do_points_fit = findings_.empty();
+    if (do_points_fit) look_for_tubes();
     if (!model_.tubes.empty()) {
       doubt_radius();
       doubt_foreign();
@@ -68,7 +69,8 @@ public:
     doubt_unexplained();
     doubt_view();
     std::ranges::move(doubts_of_camera(cloud_, known_, model_), std::back_inserter(findings_));
-    std::ranges::move(doubts_of_support(cloud_, known_, model_), std::back_inserter(findings_));
+    if (do_points_fit)
+      std::ranges::move(doubts_of_support(cloud_, known_, model_), std::back_inserter(findings_));
     return findings_;
   }
 
@@ -187,9 +189,17 @@ private:
                          kept(), ratio_));
       return;
     }
+    if (ratio_ < 1) {
+      refuse("no-tubes",
+             fmt::format("none of the {} points looked at, at a ratio of {}, is on a tube of radius "
+                         "{}: downsample less",
+                         model_.filtered.size(), ratio_, radii()));
+      return;
+    }
     const std::optional<double> radius = other_radius();
     refuse(radius ? "radius" : "no-tubes",
-           fmt::format("none of the {} points looked at is on a tube of radius {}{}", kept(), radii(),
+           fmt::format("none of the {} points looked at is on a tube of radius {}{}", model_.filtered.size(),
+                       radii(),
                        radius ? fmt::format("; they look like tubes of radius {}: --radius {:.4f}",
                                             millimetres(*radius), *radius)
                               : ""));

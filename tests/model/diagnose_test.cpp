@@ -95,6 +95,26 @@ TEST(Diagnose, SaysIfNothingWasLookedAt) {
                     "downsample less"));
 }
 
+TEST(Diagnose, BlamesTheDownsamplingBeforeTheRadius) {
+  const View view = right_view();
+  const Model model = model_tubes(view.cloud, view.scene, {.ratio = 0.001});
+  EXPECT_THAT(text_of(model.findings),
+              HasSubstr("none of the " + std::to_string(model.filtered.size()) +
+                        " points looked at, at a ratio of 0.001, is on a tube of radius 12.5 mm: downsample "
+                        "less\n"));
+  EXPECT_LT(model.filtered.size(), 500U);
+}
+
+TEST(Diagnose, SaysNothingOfTheSupportIfThePointsAreElsewhere) {
+  for (const Mistake& mistake : test::mistakes()) {
+    if (mistake.code != "frame" && mistake.code != "axes") continue;
+    View view = right_view();
+    mistake.make(view);
+    EXPECT_THAT(text_of(model_of(view).findings), Not(HasSubstr("stand for nothing measured")))
+        << mistake.name;
+  }
+}
+
 TEST(Diagnose, RealColoursAndTheColoursOfLabelsAreNoMistake) {
   View view = right_view();
   const Model model = model_tubes(view.cloud, view.scene);
