@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tanglebin/base/error.hpp"
+#include "tanglebin/base/millimetres.hpp"
 #include "tanglebin/base/text.hpp"
 #include "tanglebin/files/read_file.hpp"
 #include "tanglebin/io/toml_camera.hpp"
@@ -159,6 +160,13 @@ constexpr std::tuple bin_size_fields{
     Field{"wall", &Bin::wall},
 };
 
+void expect_thin_wall(const TomlTable& table, double wall) {
+  constexpr double thickest = 0.2;  // m
+  if (wall > thickest)
+    table.fail("wall", fmt::format("{} m", wall),
+               fmt::format("at most {} m{}", thickest, hint_of_millimetres(wall)));
+}
+
 Bin read_bin(const TomlTable& table) {
   Bin bin;
   std::string preset;
@@ -169,6 +177,7 @@ Bin read_bin(const TomlTable& table) {
     table.require({"length", "width", "height"});
   }
   read_fields(table, bin_size_fields, bin);
+  expect_thin_wall(table, bin.wall);
   return bin;
 }
 

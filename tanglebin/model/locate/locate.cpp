@@ -199,9 +199,10 @@ Fault fault_of_rim(const Agreement& agreement, const Bin& bin) {
   if (all.explained >= explained_min * all.expected && all.contradicted <= contradicted_max * all.expected)
     return std::nullopt;
   return fmt::format(
-      "the rim is not {:.3f} m above the floor: of its pixels, {:.0f} % show it, {:.0f} % something in front "
+      "the rim is not {:.3f} m above the floor, or not {:.3f} m thick: of its pixels, {:.0f} % show it, "
+      "{:.0f} % something in front "
       "of it and {:.0f} % something behind it",
-      bin.height, percent(all.explained, all.expected), percent(all.hidden, all.expected),
+      bin.height, bin.wall, percent(all.explained, all.expected), percent(all.hidden, all.expected),
       percent(all.contradicted, all.expected));
 }
 

@@ -240,6 +240,13 @@ TEST(Locate, RefusesABinOfOtherSizes) {
   }
 }
 
+TEST(Locate, NamesTheWallOfABinWhoseRimIsNotThatThick) {
+  ScanOfBin scan = scan_of({}, some_tubes(3, {}), camera_over(20, 1.2));
+  scan.support.bin.wall = 0.08;
+  EXPECT_THAT(refusal(scan),
+              HasSubstr("the rim is not 0.200 m above the floor, or not 0.080 m thick: of its"));
+}
+
 // Turned by 90°, such a bin has two walls on true ones, and the others where nothing is measured.
 TEST(Locate, RefusesTheOuterSizesOfABin) {
   const Bin bin{.length = 0.6, .width = 0.4, .height = 0.2, .wall = 0.01};
