@@ -55,15 +55,16 @@ std::string text_of(LengthFit fit) {
 }
 
 void print_counts(const PointCounts& counts) {
-  const std::vector<std::pair<const char*, std::size_t>> all{{"on tubes", counts.on_tubes},
-                                                             {"on the support", counts.on_support},
-                                                             {"near it", counts.near_support},
-                                                             {"unexplained", counts.unexplained},
-                                                             {"under the support", counts.below_support},
-                                                             {"too far from it", counts.cropped},
-                                                             {"behind the camera", counts.behind_camera},
-                                                             {"outside of its image", counts.outside_image},
-                                                             {"without a position", counts.invalid}};
+  const std::vector<std::pair<const char*, std::size_t>> all{
+      {"on tubes", counts.on_tubes},
+      {"on the support", counts.on_support},
+      {"near the support", counts.near_support},
+      {"unexplained", counts.unexplained},
+      {"under the support", counts.below_support},
+      {"too far away", counts.cropped},
+      {"behind the camera", counts.behind_camera},
+      {"outside of the camera's image", counts.outside_image},
+      {"without a position", counts.invalid}};
   std::vector<std::string> parts;
   for (const auto& [what, count] : all) {
     if (count > 0) parts.push_back(fmt::format("{} {}", count, what));

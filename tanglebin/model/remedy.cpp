@@ -123,8 +123,8 @@ private:
 struct Frame {
   const char* name;
   const char* option;
-  const char* axes;
-  Isometry3d pose;  // frame → world frame
+  const char* axes;  // a clause
+  Isometry3d pose;   // frame → world frame
 };
 
 std::string with_sign(double sign, std::string_view axis) {
@@ -167,15 +167,16 @@ Remedy remedy_of(const Frame& told, const Frame& right, double unit, const Matri
   std::string advice;
   const auto add = [&](const char* what, const std::string& text) {
     if (code.empty()) code = what;
-    advice += (advice.empty() ? "" : ", and ") + text;
+    advice += (advice.empty() ? "" : " and ") + text;
   };
-  if (&told != &right) add("frame", fmt::format("in {}: {}", right.name, right.option));
-  if (unit == 0.01) add("unit", "in centimetres, which must be written in metres or millimetres");
-  if (unit == 0.001) add("unit", "in millimetres: --unit mm");
-  if (unit > 1) add("unit", "in metres: --unit m");
-  if (!axes.isIdentity())
-    add("axes", fmt::format("if their {} were the axes of {}, {}", text_of(axes), right.name, right.axes));
-  return {code, "would fit " + advice};
+  if (&told != &right) add("frame", fmt::format("in {} ({})", right.name, right.option));
+  if (unit == 0.01) add("unit", "in centimetres (write them in metres or millimetres)");
+  if (unit == 0.001) add("unit", "in millimetres (--unit mm)");
+  if (unit > 1) add("unit", "in metres (--unit m)");
+  if (axes.isIdentity()) return {code, "would fit " + advice};
+  return {code.empty() ? "axes" : code,
+          fmt::format("would fit {}{}if each point (x, y, z) were {}: in {}, {}", advice,
+                      advice.empty() ? "" : " ", text_of(axes), right.name, right.axes)};
 }
 
 // How many mistakes an exchange of axes is: a mirrored frame is the least likely.
@@ -188,8 +189,8 @@ int mistakes_of(const Matrix3d& axes) {
 std::vector<Guess> guesses_of_frame(const KnownScene& known) {
   const Isometry3d& camera = known.camera.pose;
   const std::array frames = {
-      Frame{"the camera's frame", "--frame camera", "x right, y down, z along the view", camera},
-      Frame{"the world frame", "--frame world", "z up", Isometry3d::Identity()}};
+      Frame{"the camera's frame", "--frame camera", "x points right, y down and z along the view", camera},
+      Frame{"the world frame", "--frame world", "z points up", Isometry3d::Identity()}};
   std::vector<Guess> all;
   for (const Frame& told : frames) {
     for (const Frame& right : frames) {

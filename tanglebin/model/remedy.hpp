@@ -12,7 +12,7 @@ namespace tanglebin {
 /// A usual mistake, and what to try.
 struct Remedy {
   std::string code;    ///< "frame", "unit", "axes", "pose" or "support"
-  std::string advice;  ///< follows "these points …": "would fit in millimetres: --unit mm"
+  std::string advice;  ///< follows "these points …": "would fit in millimetres (--unit mm)"
 };
 
 /// The usual mistake without which points (m, world frame; some hundred are enough) would fit the scene, that

@@ -103,8 +103,8 @@ TEST_F(MistakeInModel, OfFrameOrUnitOnTheCommandLineIsNamed) {
   write("scan.ply", ply_of(test::right_view().cloud));
   write_scene_of(test::right_view().scene);
   for (const auto& [options, remedy] : std::vector<std::pair<std::string, std::string>>{
-           {"--frame camera", "in the world frame: --frame world"},
-           {"--unit mm", "in metres: --unit m"},
+           {"--frame camera", "in the world frame (--frame world)"},
+           {"--unit mm", "in metres (--unit m)"},
            {"--frame camera --unit mm", "--unit m"}}) {
     const ProgramResult run = model("scan.ply", options);
     EXPECT_EQ(run.status, 6) << options;

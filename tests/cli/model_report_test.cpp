@@ -43,6 +43,19 @@ TEST_F(ModelReport, PrintsALineForEachTube) {
   EXPECT_THAT(run.out, HasSubstr(std::to_string(scan_.points.size()) + " points: "));
 }
 
+TEST_F(ModelReport, NamesWhatThePointsMissed) {
+  for (int i = 0; i < 3; ++i) {
+    scan_.points.emplace_back(5, 5, 0);
+    scan_.points.emplace_back(0, 0, 0.8F);
+    scan_.labels.insert(scan_.labels.end(), 2, -1);
+    scan_.colors.insert(scan_.colors.end(), 2, {0, 0, 0});
+  }
+  scan_.width = scan_.points.size();
+  const ProgramResult run = model(scan_, "");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr(" 3 too far away"), HasSubstr(" 3 outside of the camera's image")));
+}
+
 TEST_F(ModelReport, WritesTheTubesAsJsonWithHowSureTheyAre) {
   ASSERT_EQ(model(scan_, "--modelled-tubes " + path("tubes.json")).status, 0);
   const auto json = nlohmann::json::parse(test::bytes_of(directory_ / "tubes.json"));

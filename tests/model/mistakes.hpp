@@ -78,28 +78,30 @@ inline std::vector<Mistake> mistakes() {
   const Vector3d y = Vector3d::UnitY();
   const Vector3d z = Vector3d::UnitZ();
   return {
-      {"camera's frame", to_camera, "frame", error, "in the camera's frame: --frame camera"},
+      {"camera's frame", to_camera, "frame", error, "in the camera's frame (--frame camera)"},
       {"told to be in the camera's frame",
        [](View& view) { move(view.cloud, Eigen::Affine3d(view.scene.camera.pose)); }, "frame", error,
-       "in the world frame: --frame world"},
-      {"millimetres", scale(1000), "unit", error, "in millimetres: --unit mm"},
+       "in the world frame (--frame world)"},
+      {"millimetres", scale(1000), "unit", error, "in millimetres (--unit mm)"},
       {"centimetres", scale(100), "unit", error, "in centimetres"},
-      {"told to be in millimetres", scale(0.001), "unit", error, "in metres: --unit m"},
+      {"told to be in millimetres", scale(0.001), "unit", error, "in metres (--unit m)"},
       {"camera's frame and millimetres",
        [=](View& view) {
          to_camera(view);
          scale(1000)(view);
        },
-       "frame", error, "in millimetres: --unit mm"},
+       "frame", error, "in millimetres (--unit mm)"},
       {"z down", axes(x, -y, -z), "axes", error, "(x, −y, −z)"},
       {"y up", axes(x, z, -y), "axes", error, "(x, −z, y)"},
-      {"x and y swapped, as in a mirror", axes(y, x, z), "axes", error, "if their ("},
+      {"x and y swapped, as in a mirror", axes(y, x, z), "axes", error, "if each point (x, y, z) were ("},
       {"OpenGL's camera frame",
        [=](View& view) {
          to_camera(view);
          axes(x, -y, -z)(view);
        },
-       "frame", error, "(x, −y, −z)"},
+       "frame", error,
+       "they would fit in the camera's frame (--frame camera) if each point (x, y, z) were (x, −y, −z): in "
+       "the camera's frame, x points right, y down and z along the view"},
       {"pose inverted", [](View& view) { view.scene.camera.pose = view.scene.camera.pose.inverse(); }, "pose",
        error, "the inverse of the camera's pose"},
       {"the camera's position in millimetres",
