@@ -24,6 +24,7 @@ struct PointCloud {
   std::size_t width = 0;
   std::size_t height = 1;
   std::optional<Eigen::Isometry3d> viewpoint;  ///< sensor frame → world frame, if known
+  std::optional<double> depth_scale{};         ///< steps per metre, if it was a depth image of integers
 };
 
 /// Throws std::invalid_argument if the arrays differ in length, if there are not width * height points, or if

@@ -47,6 +47,7 @@ PointCloud cloud_from_depths(const DepthImage& image, const Intrinsics& intrinsi
   PointCloud cloud;
   cloud.width = across.size();
   cloud.height = down.size();
+  cloud.depth_scale = image.steps_per_metre;
   cloud.points.reserve(image.depths.size());
   for (std::size_t row = 0; row < cloud.height; ++row) {
     for (std::size_t column = 0; column < cloud.width; ++column) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "tanglebin/cloud/cloud.hpp"
@@ -12,7 +13,8 @@ namespace tanglebin {
 struct DepthImage {
   int width;
   int height;
-  std::vector<float> depths;  ///< m; NaN if nothing was measured
+  std::vector<float> depths;                ///< m; NaN if nothing was measured
+  std::optional<double> steps_per_metre{};  ///< of the integers that it was read from
 };
 
 /// The depth (m) if it is a measurement, a finite positive number; else NaN.

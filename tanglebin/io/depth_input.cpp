@@ -53,7 +53,7 @@ DepthImage read_png(std::istream& in, const std::string& name, std::optional<dou
   constexpr std::size_t most_bytes = 4 * most_pixels;  // twice what they take uncompressed
   const GreyImage image = grey_image_from_png(read_bytes(in, name, most_bytes), name);
   const double steps = steps_of_integers(steps_per_metre, name);
-  DepthImage depths{image.width, image.height, {}};
+  DepthImage depths{image.width, image.height, {}, steps};
   depths.depths.reserve(image.values.size());
   for (const std::uint16_t value : image.values) depths.depths.push_back(depth_of(value, steps));
   return depths;
@@ -88,9 +88,10 @@ DepthImage read_npy(std::istream& in, const std::string& name, std::optional<dou
   const auto [type, width, height] = read_npy_header(input);
   const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   switch (type) {
-    case NpyType::uint16:
-      return {width, height,
-              read_values<std::uint16_t>(input, size, steps_of_integers(steps_per_metre, name))};
+    case NpyType::uint16: {
+      const double steps = steps_of_integers(steps_per_metre, name);
+      return {width, height, read_values<std::uint16_t>(input, size, steps), steps};
+    }
     case NpyType::float32:
       return {width, height, read_values<float>(input, size, floats_per_metre)};
     case NpyType::float64:

@@ -122,7 +122,8 @@ private:
   void look_for_points_in_scene() {
     if (!are_most_missed() && !are_some_unseen() && !is_most_not_on_tubes() && !model_.tubes.empty()) return;
     constexpr std::size_t points_for_remedy = 150;
-    const std::optional<Remedy> remedy = remedy_for(some_points(points_for_remedy), known_);
+    const std::optional<Remedy> remedy =
+        remedy_for(some_points(points_for_remedy), known_, cloud_.depth_scale);
     if (remedy) {
       refuse(remedy->code, fmt::format("{}; they {}", words_of_miss(), remedy->advice));
       return;

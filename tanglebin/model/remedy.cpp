@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tanglebin/base/median.hpp"
+#include "tanglebin/cloud/depth_scales.hpp"
 
 namespace tanglebin {
 namespace {
@@ -208,6 +209,18 @@ std::vector<Guess> guesses_of_frame(const KnownScene& known) {
   return all;
 }
 
+// The depths are from the camera, so a depth image is in no other frame.
+std::vector<Guess> guesses_of_depth_scale(const KnownScene& known, double told) {
+  const Isometry3d& camera = known.camera.pose;
+  std::vector<Guess> all;
+  for (const double scale : other_depth_scales(told)) {
+    const Affine3d motion = camera * Affine3d(Eigen::Scaling(told / scale)) * camera.inverse(Eigen::Isometry);
+    all.push_back(
+        {motion, camera, 1, {"unit", fmt::format("would fit with depth_scale = {:.6g} in [camera]", scale)}});
+  }
+  return all;
+}
+
 // Another pose of the camera or the support.
 std::vector<Guess> guesses_of_pose(const KnownScene& known) {
   const Isometry3d& camera = known.camera.pose;
@@ -233,10 +246,12 @@ std::vector<Guess> guesses_of_pose(const KnownScene& known) {
 
 }  // namespace
 
-std::optional<Remedy> remedy_for(const std::vector<Vector3d>& points, const KnownScene& known) {
+std::optional<Remedy> remedy_for(const std::vector<Vector3d>& points, const KnownScene& known,
+                                 std::optional<double> depth_scale) {
   if (points.empty()) return std::nullopt;
   const Fit fit(points, known);
-  std::vector<Guess> all = guesses_of_frame(known);
+  std::vector<Guess> all =
+      depth_scale ? guesses_of_depth_scale(known, *depth_scale) : guesses_of_frame(known);
   std::ranges::move(guesses_of_pose(known), std::back_inserter(all));
   std::vector<double> fits;
   fits.reserve(all.size());

@@ -8,6 +8,7 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/median.hpp"
+#include "tanglebin/cloud/depth_scales.hpp"
 #include "tanglebin/scene/resolve_scene.hpp"
 
 namespace tanglebin {
@@ -59,6 +60,47 @@ Located locate_with_any_wall(const PointCloud& cloud, Support bin, const Camera&
   return located;
 }
 
+// As it would be if the depth image that it was had this scale; m, world frame.
+PointCloud with_depth_scale(PointCloud cloud, double scale, const Eigen::Isometry3d& camera) {
+  const Eigen::Vector3f centre = camera.translation().cast<float>();
+  const auto factor = static_cast<float>(*cloud.depth_scale / scale);
+  for (Eigen::Vector3f& point : cloud.points) point = centre + factor * (point - centre);
+  return cloud;
+}
+
+bool is_located(const PointCloud& cloud, const Support& bin, const Camera& camera) {
+  try {
+    locate(cloud, bin, camera);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+// Of a plane, every scale would show one.
+std::optional<double> depth_scale_that_shows(const Support& bin, const PointCloud& cloud,
+                                             const Camera& camera) {
+  if (!cloud.depth_scale || bin.shape != Support::Shape::bin) return std::nullopt;
+  for (const double scale : other_depth_scales(*cloud.depth_scale)) {
+    if (is_located(with_depth_scale(cloud, scale, camera.pose), bin, camera)) return scale;
+  }
+  return std::nullopt;
+}
+
+// If the support is not in the cloud, the depth scale may be wrong.
+Located located_or_scale_named(const PointCloud& cloud, const Support& support, const Camera& camera,
+                               bool is_wall_unknown) {
+  try {
+    return is_wall_unknown ? locate_with_any_wall(cloud, support, camera) : locate(cloud, support, camera);
+  } catch (const InputError& error) {
+    if (!is_not_located(error)) throw;
+    const std::optional<double> scale = depth_scale_that_shows(support, cloud, camera);
+    if (!scale) throw;
+    throw InputError(error.place(), fmt::format("{}; it would fit with depth_scale = {:.6g} in [camera]",
+                                                error.problem(), *scale));
+  }
+}
+
 // Whether the floor is less even than rim and walls are.
 std::optional<std::string> doubt_of_floor(const std::vector<LocatedPart>& parts, double margin) {
   const auto floor = std::ranges::find(parts, "floor", &LocatedPart::name);
@@ -103,8 +145,7 @@ LocatedScene locate_support(const Scene& scene, const PointCloud& cloud) {
   const Support& support = *scene.support;
   const Camera& camera = resolved.known.camera;
   const bool is_wall_unknown = support.shape == Support::Shape::bin && !scene.wall_is_given;
-  Located located = is_wall_unknown ? locate_with_any_wall(resolved.cloud, support, camera)
-                                    : locate(resolved.cloud, support, camera);
+  Located located = located_or_scale_named(resolved.cloud, support, camera, is_wall_unknown);
   LocatedScene result{scene, std::move(located), std::move(resolved.notes), {}};
   result.doubts = doubts_of(result.located, support.margin, is_wall_unknown);
   result.scene.support = result.located.support;

@@ -48,6 +48,7 @@ PointCloud positions_of(const PointCloud& cloud) {
   positions.width = cloud.width;
   positions.height = cloud.height;
   positions.viewpoint = cloud.viewpoint;
+  positions.depth_scale = cloud.depth_scale;
   return positions;
 }
 

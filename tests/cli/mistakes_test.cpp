@@ -149,7 +149,10 @@ TEST_F(MistakeInModel, OfADepthImagesScaleIsNamed) {
   write("depth.png", depth_png(depth_image(scan(test::heap(), view.scene.support.bin, view.scene.camera))));
   const ProgramResult run = model("depth.png", "--frame camera --unit mm");
   EXPECT_EQ(run.status, 6) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("depth.png: "));
+  EXPECT_THAT(run.err, HasSubstr("they would fit with depth_scale = 10000 in [camera]\n"));
+  const ProgramResult located = model("depth.png", "--frame camera --unit mm --locate");
+  EXPECT_EQ(located.status, 2) << located.err;
+  EXPECT_THAT(located.err, HasSubstr("; it would fit with depth_scale = 10000 in [camera]\n"));
 }
 
 // A file that ends too early, as a copy does that was interrupted.

@@ -78,6 +78,20 @@ TEST(Diagnose, SaysWhatIsWrongOnPurpose) {
   }
 }
 
+TEST(Diagnose, NamesTheScaleOfADepthImage) {
+  for (const double factor : {10.0, 0.1, 0.001, 0.5, 5.0}) {
+    View view = right_view();
+    view.cloud = organized();
+    const Eigen::Isometry3d& camera = view.scene.camera.pose;
+    test::move(view.cloud, camera * Eigen::Affine3d(Eigen::Scaling(factor)) * camera.inverse());
+    view.cloud.depth_scale = 1000;
+    EXPECT_THAT(text_of(model_of(view).findings),
+                ContainsRegex("error unit: .*; they would fit with depth_scale = " +
+                              std::to_string(static_cast<int>(1000 * factor)) + " in .camera.\n"))
+        << factor;
+  }
+}
+
 TEST(Diagnose, NeverSaysAllOrHundredPercentOfAPart) {
   View view = right_view();
   for (std::size_t i = 1; i < view.cloud.points.size(); ++i) view.cloud.points[i] = {2, 2, 0};

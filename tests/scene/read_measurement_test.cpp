@@ -66,6 +66,7 @@ TEST(ReadMeasurement, ADepthImageIsAnOrganizedCloudInTheCamerasFrameInMetres) {
   EXPECT_TRUE(measurement.cloud.points[1].isApprox(Eigen::Vector3f(0.02F, 0, 2)));
   EXPECT_EQ(measurement.scene.camera.frame, CloudFrame::camera);
   EXPECT_EQ(measurement.scene.camera.unit, 1);
+  EXPECT_EQ(measurement.cloud.depth_scale, 10000);
 }
 
 TEST(ReadMeasurement, IntegersCountByTheDepthScaleOrElseByTheUnit) {
@@ -78,6 +79,7 @@ TEST(ReadMeasurement, IntegersCountByTheDepthScaleOrElseByTheUnit) {
 TEST(ReadMeasurement, FloatsCountByTheUnitWhateverACameraFileSaysOfIntegers) {
   const Measurement metres = measured(npy(), with({.intrinsics = small_camera, .depth_scale = 10000}));
   EXPECT_EQ(metres.cloud.points[0].z(), 1500);
+  EXPECT_FALSE(metres.cloud.depth_scale);
   const Measurement millimetres =
       measured(npy(), with({.intrinsics = small_camera, .unit = 0.001, .depth_scale = 10000}));
   EXPECT_EQ(millimetres.cloud.points[0].z(), 1.5F);
