@@ -278,14 +278,14 @@ void find_kinds(const Scene& scene, const std::function<void()>& at_place, Resol
   if (scene.tubes.empty()) resolved.notes.emplace_back("the tubes' length is not known");
 }
 
-// A bin's size limits the length in validate(KnownScene). A tube may be longer than what is seen of it, but
-// not many times.
+// A bin's size limits the length in validate(KnownScene). A coiled cable may be many times as long as all
+// that is seen, but not a hundred times.
 void expect_length_of_size(const TubeKind& kind, double size) {
-  constexpr double too_many_times = 10;
+  constexpr double too_many_times = 100;
   if (!kind.length_is_known() || kind.length() <= too_many_times * size) return;
   throw InputError({"", 0, kind.branches() ? "tree" : "length"}, fmt::format("{} m", kind.length()),
-                   fmt::format("at most {:.3g} m, ten times the size of the cloud{}", too_many_times * size,
-                               hint_of_millimetres(kind.length())));
+                   fmt::format("at most {:.3g} m, a hundred times the size of the cloud{}",
+                               too_many_times * size, hint_of_millimetres(kind.length())));
 }
 
 void expect_lengths_of_size(const ResolvedScene& resolved) {

@@ -25,7 +25,7 @@ struct ResolvedScene {
 /// - the support: nothing;
 /// - the radius of a single class of tubes (estimate_radius()); a length may stay unknown.
 /// Throws InputError naming what is missing, and how to give it, if the cloud does not show it; as
-/// validate(KnownScene) does; and, unless the support is a bin, if a length is more than ten times the
+/// validate(KnownScene) does; and, unless the support is a bin, if a length is more than a hundred times the
 /// cloud's size. Calls `at_place` as estimate_radius() does.
 ResolvedScene resolve(
     const Scene& scene, const PointCloud& cloud, const std::function<void()>& at_place = [] {});
