@@ -161,7 +161,7 @@ constexpr std::tuple bin_size_fields{
 };
 
 void expect_thin_wall(const TomlTable& table, double wall) {
-  constexpr double thickest = 0.2;  // m
+  constexpr double thickest = 0.5;  // m
   if (wall > thickest)
     table.fail("wall", fmt::format("{} m", wall),
                fmt::format("at most {} m{}", thickest, hint_of_millimetres(wall)));

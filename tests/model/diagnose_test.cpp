@@ -274,7 +274,7 @@ TEST(Diagnose, WhatTheCameraCannotHaveSeenIsNullEvenOnTheBin) {
   for (std::size_t i = 0; i < model.labels.size(); ++i) {
     const bool is_seen = pixel_of(view.scene.camera, view.cloud.points[i].cast<double>()).has_value();
     EXPECT_TRUE(is_seen || model.labels[i] == null_label);
-    on_bin += model.labels[i] == bin_label ? 1 : 0;
+    if (model.labels[i] == bin_label) ++on_bin;
   }
   EXPECT_GT(on_bin, model.labels.size() / 10);
 }

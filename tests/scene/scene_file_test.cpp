@@ -218,9 +218,9 @@ TEST(SceneFile, ErrorsNameLineAndKey) {
       {"[tube]\nradius = 0.01\n", "tube: found a table, expected an array of tables [[tube]]"},
       {"[camera\n", "scene.toml:1: "},
       {"[support]\nshape = \"bin\"\nlength = 0.6\nwidth = 0.4\nheight = 0.2\nwall = 8\n",
-       "scene.toml:6: support.wall: found 8 m, expected at most 0.2 m; for 8 mm write 0.008"},
-      {"[support]\nshape = \"bin\"\npreset = \"paper\"\nwall = 0.3\n",
-       "support.wall: found 0.3 m, expected at most 0.2 m"},
+       "scene.toml:6: support.wall: found 8 m, expected at most 0.5 m; for 8 mm write 0.008"},
+      {"[support]\nshape = \"bin\"\npreset = \"paper\"\nwall = 0.6\n",
+       "support.wall: found 0.6 m, expected at most 0.5 m"},
   };
   const auto complaint_of = [](const std::string& text) { return complaint([&] { read(text); }); };
   for (const auto& [text, message] : faults) EXPECT_THAT(complaint_of(text), HasSubstr(message)) << text;
@@ -262,7 +262,7 @@ Scene any_scene() {
       scene.support->bin = {.length = *number(0.02, 10),
                             .width = *number(0.02, 10),
                             .height = *number(0.01, 10),
-                            .wall = *number(0.001, 0.2)};
+                            .wall = *number(0.001, 0.5)};
     if (maybe()) scene.support->pose = any_pose();
     if (maybe()) scene.support->margin = *number(0, 0.1);
   } else if (maybe()) {
