@@ -116,15 +116,6 @@ FinishedRuns finished_runs(const fs::path& directory, const RunGrid& grid) {
   return finished;
 }
 
-// The error that ended the run is the one to report; the journal keeps what cannot be written now.
-void fold_after_an_error(const fs::path& directory, const RunGrid& grid) {
-  try {
-    fold_journal(finished_runs(directory, grid));
-  } catch (const std::exception&) {
-    return;
-  }
-}
-
 }  // namespace
 
 ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSettings& settings,
@@ -147,6 +138,14 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
   const auto fold_journal = [&](const FinishedRuns& finished) {
     write_results(directory, dataset, settings, finished, journal.staging());
     journal.clear();
+  };
+  // The error that ended the run is the one to report; the journal keeps what cannot be written now.
+  const auto fold_after_an_error = [&] {
+    try {
+      fold_journal(finished_runs(directory, grid));
+    } catch (const std::exception&) {
+      return;
+    }
   };
   FinishedRuns before = finished_runs(directory, grid);
   before.forget_changed(dataset, settings);
@@ -193,7 +192,7 @@ ExperimentSummary run_experiment(const Dataset& dataset, const ExperimentSetting
                     .tick = [&] { observer.progress(summary.progress); },
                     .stopping = observer.stopping});
   } catch (...) {
-    fold_after_an_error(directory, grid);
+    fold_after_an_error();
     throw;
   }
   fold_journal(finished_runs(directory, grid));
