@@ -128,7 +128,7 @@ TEST(Configuration, WritesNoTubesThatItCouldNotRead) {
   tubes[1].id = tubes[0].id;
   EXPECT_EQ(test::complaint([&] { write(tubes); }), "id: found 1 twice, expected distinct ids");
   tubes[1].id = 0;
-  EXPECT_EQ(test::complaint([&] { write(tubes); }), "id: found 0, expected 1 or more");
+  EXPECT_EQ(test::complaint([&] { write(tubes); }), "id of tube 0: found 0, expected 1 or more");
 }
 
 TEST(Configuration, TakesOtherLineEndsAndBlanks) {

@@ -170,7 +170,7 @@ TEST(SceneFile, ErrorsNameLineAndKey) {
       {"[camera]\nwidth = 640\nheight = 480\n", "camera.fx: is missing"},
       {"[camera]\nfx = 500\nfy = 500\n", "camera.cx: is missing"},
       {"[camera]\nwidth = 640\nheight = 480\nfx = 500\nfy = -1\n",
-       "scene.toml:5: camera.fy: found -1.000000, expected a finite positive number"},
+       "scene.toml:5: camera.fy: found -1, expected a finite positive number"},
       {"[camera]\nhfov_deg = 46\n", "camera.width: is missing"},
       {"[camera]\nposition = [0, 0, 1]\n", "camera.look_at: is missing"},
       {"[camera]\nlook_at = [0, 0, 1]\n", "camera.position: is missing"},
