@@ -56,8 +56,7 @@ std::string in_quotes(const std::string& text) {
 std::string cell(const Json& json, const std::string& name) {
   const auto value = json.find(name);
   if (value == json.end() || value->is_null()) return {};
-  return value->is_string() ? in_quotes(value->get<std::string>())
-                            : value->dump(-1, ' ', false, Json::error_handler_t::replace);
+  return value->is_string() ? in_quotes(value->get<std::string>()) : json_text(*value);
 }
 
 std::string cells(const Json& json, const std::vector<std::string>& columns) {

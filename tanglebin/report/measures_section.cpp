@@ -79,15 +79,14 @@ std::string other_measures(const Results& results) {
   }
   const double ratio = shown_ratio(results.scores);
   const auto scores = chosen(results.scores, [&](const RunScore& run) { return run.run.ratio == ratio; });
-  std::string content =
-      paragraph("note",
-                "Means over the cases. IoU: intersection over union of a tube and its assigned label. "
-                "F1 and PQ (panoptic quality): tubes detected at IoU above 0.5. ARI: adjusted "
-                "Rand index, without scenes of one tube. Centre line: median distance of the modelled centre "
-                "lines from the "
-                "true ones, if a tube was found. Joins: between neighbouring pieces of a tube, "
-                "hidden or not; how many of the true ones were found, and how many of those made "
-                "are true. Tanglebin's <code>docs/metrics.md</code> defines each measure.");
+  std::string content = paragraph(
+      "note",
+      "Means over the cases. IoU: intersection over union of a tube and its assigned label. "
+      "F1 and PQ (panoptic quality): tubes detected at IoU above 0.5. ARI: adjusted "
+      "Rand index, without scenes of one tube. Centre line: median distance of the modelled centre "
+      "lines from the true ones, if a tube was found. Joins: between neighbouring pieces of a tube, "
+      "hidden or not; how many of the true ones were found, and how many of those made "
+      "are true. Tanglebin's <code>docs/metrics.md</code> defines each measure.");
   for (const RunGroup& group : groups_of(scores)) {
     content += html(table_of(chosen(scores, [&](const RunScore& run) { return is_of(run, group); }),
                              group_text(group, results), ratio));

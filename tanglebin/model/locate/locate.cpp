@@ -200,8 +200,7 @@ Fault fault_of_rim(const Agreement& agreement, const Bin& bin) {
     return std::nullopt;
   return fmt::format(
       "the rim is not {:.3f} m above the floor, or not {:.3f} m thick: of its pixels, {:.0f} % show it, "
-      "{:.0f} % something in front "
-      "of it and {:.0f} % something behind it",
+      "{:.0f} % something in front of it and {:.0f} % something behind it",
       bin.height, bin.wall, percent(all.explained, all.expected), percent(all.hidden, all.expected),
       percent(all.contradicted, all.expected));
 }
