@@ -16,6 +16,7 @@
 #include "tanglebin/model/axis/links/choose_links.hpp"
 #include "tanglebin/model/axis/links/join_odds.hpp"
 #include "tanglebin/model/axis/links/length.hpp"
+#include "tanglebin/model/axis/links/mixed_fragments.hpp"
 #include "tanglebin/model/axis/tries.hpp"
 #include "tanglebin/model/scene/range_image.hpp"
 #include "tanglebin/model/scene/step_clock.hpp"
@@ -222,8 +223,10 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   const auto join = [&](AxisSteps& steps) {
     steps.links = find_links(steps.fragments, seen, steps.kind, settings.link,
                              space_of_other_kinds(result.kinds, known, steps));
-    steps.chosen = choose_links(steps.fragments, steps.links, steps.kind, settings.link, seen).links;
+    ChosenLinks chosen = choose_links(steps.fragments, steps.links, steps.kind, settings.link, seen);
+    steps.chosen = std::move(chosen.links);
     steps.tubes = linked_fragments(steps.fragments.size(), steps.links, steps.chosen);
+    return std::move(chosen.shapes);
   };
   for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
     look_beyond_ends(steps.fragments, known_kind.radius, seen);
@@ -231,7 +234,11 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
     if (cut_too_long(steps.fragments, steps.votes, known_kind.radius,
                      length_max(steps.kind.length(), settings.link), settings.fragment))
       look_beyond_ends(steps.fragments, known_kind.radius, seen);
-    join(steps);
+    const TubeShapes shapes = join(steps);
+    if (cut_mixed(steps.fragments, steps.votes, known_kind.radius, shapes, settings.fragment)) {
+      look_beyond_ends(steps.fragments, known_kind.radius, seen);
+      join(steps);
+    }
     while (drop_beside(known.support, steps)) join(steps);
   });
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");

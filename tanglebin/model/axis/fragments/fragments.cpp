@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -164,10 +165,9 @@ std::vector<std::vector<std::size_t>> points_of_nodes(const Fragment& fragment, 
 
 // The node with the fewest votes of those that leave no more than this length, m, on both sides. None if it
 // has about as many as others.
-std::optional<std::size_t> weak_node(const Fragment& fragment,
-                                     const std::vector<std::vector<std::size_t>>& points_of,
-                                     double length_max) {
+std::optional<std::size_t> weak_node(const Fragment& fragment, const AxisVotes& votes, double length_max) {
   constexpr double weak = 0.25;  // of the median
+  const std::vector<std::vector<std::size_t>> points_of = points_of_nodes(fragment, votes);
   const std::vector<double> ways = ways_along(fragment.nodes);
   std::vector<std::size_t> counts;
   std::optional<std::size_t> weakest;
@@ -192,22 +192,6 @@ Fragment part_of(const Fragment& fragment, const std::vector<std::vector<std::si
   }
   std::ranges::sort(part.points);
   return part;
-}
-
-// Two parts that are not longer than tubes may be, m; none if there is no weak place between them.
-std::vector<Fragment> cut_in_two(const Fragment& fragment, const AxisVotes& votes, double radius,
-                                 double length_max, const FragmentSettings& settings) {
-  const std::vector<std::vector<std::size_t>> points_of = points_of_nodes(fragment, votes);
-  const std::optional<std::size_t> cut = weak_node(fragment, points_of, length_max);
-  if (!cut) return {};
-  std::vector<Fragment> parts = {part_of(fragment, points_of, 0, *cut),
-                                 part_of(fragment, points_of, *cut + 1, fragment.nodes.size())};
-  for (Fragment& part : parts) {
-    if (part.points.size() < static_cast<std::size_t>(settings.points_min)) return {};
-    part.ends = ends_of(part, votes, radius, settings);
-    part.length = length_of(part);
-  }
-  return parts;
 }
 
 }  // namespace
@@ -259,16 +243,30 @@ std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool
   return fragments;
 }
 
+bool cut_at(std::vector<Fragment>& fragments, std::size_t which, std::size_t node, const AxisVotes& votes,
+            double radius, const FragmentSettings& settings) {
+  const Fragment& fragment = fragments[which];
+  const std::vector<std::vector<std::size_t>> points_of = points_of_nodes(fragment, votes);
+  std::array parts = {part_of(fragment, points_of, 0, node),
+                      part_of(fragment, points_of, node + 1, fragment.nodes.size())};
+  for (Fragment& part : parts) {
+    if (part.points.size() < static_cast<std::size_t>(settings.points_min)) return false;
+    part.ends = ends_of(part, votes, radius, settings);
+    part.length = length_of(part);
+  }
+  fragments[which] = std::move(parts[0]);
+  fragments.push_back(std::move(parts[1]));
+  return true;
+}
+
 bool cut_too_long(std::vector<Fragment>& fragments, const AxisVotes& votes, double radius, double length_max,
                   const FragmentSettings& settings) {
   constexpr double much_longer = 1.25;  // a length that was told may be wrong by less
   const std::size_t before = fragments.size();
   for (std::size_t i = 0; i < before; ++i) {
     if (fragments[i].ends.size() > 2 || fragments[i].length <= much_longer * length_max) continue;
-    std::vector<Fragment> parts = cut_in_two(fragments[i], votes, radius, length_max, settings);
-    if (parts.empty()) continue;
-    fragments[i] = std::move(parts[0]);
-    fragments.push_back(std::move(parts[1]));
+    const std::optional<std::size_t> weak = weak_node(fragments[i], votes, length_max);
+    if (weak) cut_at(fragments, i, *weak, votes, radius, settings);
   }
   return fragments.size() > before;
 }

@@ -40,6 +40,11 @@ double points_on_a_radius(const std::vector<Fragment>& fragments, double radius)
 std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
                                      const FragmentSettings& settings, double shift = 0);
 
+/// Cuts a fragment without branches at a node, whose points are left out. The second part is appended.
+/// Returns false, and leaves the fragment whole, if a part has too few points to be a fragment.
+bool cut_at(std::vector<Fragment>& fragments, std::size_t which, std::size_t node, const AxisVotes& votes,
+            double radius, const FragmentSettings& settings);
+
 /// Cuts fragments without branches that are much longer than tubes may be, `length_max` (m), so that neither
 /// part is longer: two tubes whose ends touch. Only where next to no votes are; these points are left out.
 /// Without such a place, the fragment stays as it is: the length may be wrong. Returns whether it cut any.

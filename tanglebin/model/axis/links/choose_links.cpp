@@ -12,7 +12,6 @@
 #include "tanglebin/model/axis/links/link_candidates.hpp"
 #include "tanglebin/model/axis/links/matching.hpp"
 #include "tanglebin/model/axis/links/selection.hpp"
-#include "tanglebin/model/axis/links/tube_shapes.hpp"
 
 namespace tanglebin {
 namespace {
@@ -210,7 +209,7 @@ ChosenLinks likeliest(const LinkCandidates& candidates) {
   if (!candidates.kind.branches()) selection.take_possible(possible_matching(candidates, none));
   selection.take_possible(all);
   exchange(candidates, selection, all);
-  return {.links = selection.taken(), .log_odds = selection.weight()};
+  return {.links = selection.taken(), .log_odds = selection.weight(), .shapes = {}};
 }
 
 }  // namespace
@@ -223,7 +222,9 @@ ChosenLinks choose_links(const std::vector<Fragment>& fragments, const std::vect
   TubeShapes shapes = shapes_of_whole_chains(candidates, chosen.links);
   if (!shapes.are_known()) return chosen;
   candidates.set_shapes(std::move(shapes));
-  return likeliest(candidates);
+  chosen = likeliest(candidates);
+  chosen.shapes = std::move(candidates.shapes);
+  return chosen;
 }
 
 std::vector<std::vector<std::size_t>> linked_fragments(std::size_t fragments, const std::vector<Link>& links,

@@ -5,6 +5,7 @@
 
 #include "tanglebin/model/axis/fragments/fragments.hpp"
 #include "tanglebin/model/axis/links/links.hpp"
+#include "tanglebin/model/axis/links/tube_shapes.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"
 #include "tanglebin/model/scene/range_image.hpp"
 
@@ -14,6 +15,7 @@ namespace tanglebin {
 struct ChosenLinks {
   std::vector<std::size_t> links;  ///< ascending
   double log_odds;                 ///< the sum of their weights, less the costs of the tubes' shapes
+  TubeShapes shapes;               ///< of the whole chains that they were chosen by, if these are alike
 };
 
 /// Chooses the likeliest combination of the links from find_links() in which every tube is open, no longer

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "tanglebin/base/constants.hpp"
+#include "tests/model/axis/links/bent_bar.hpp"
 
 namespace tanglebin {
 namespace {
@@ -21,32 +22,11 @@ using testing::DoubleNear;
 using testing::Ge;
 using testing::Le;
 
-constexpr double bar_radius = 0.006;  // m
-constexpr double node_step = 0.004;   // m
-
-// Straight pieces of 60 mm with round bends of 3 radii between them, in a plane.
-CentrePath bent_bar(double first_bend, double second_bend) {
-  CentrePath path{Vector3d::Zero()};
-  double heading = 0;
-  const auto go = [&](double length, double turn) {
-    const int steps = static_cast<int>(std::lround(length / node_step));
-    for (int i = 0; i < steps; ++i) {
-      heading += turn / steps;
-      path.push_back(path.back() + length / steps * Vector3d(std::cos(heading), std::sin(heading), 0));
-    }
-  };
-  go(0.06, 0);
-  go(3 * bar_radius * first_bend, first_bend);
-  go(0.06, 0);
-  go(3 * bar_radius * second_bend, second_bend);
-  go(0.06, 0);
-  return path;
-}
-
-CentrePath moved(const Isometry3d& pose, CentrePath path) {
-  for (Vector3d& node : path) node = pose * node;
-  return path;
-}
+using test::bar_radius;
+using test::bent_bar;
+using test::equal_bars;
+using test::moved;
+using test::node_step;
 
 const Isometry3d elsewhere = Translation3d(0.1, -0.2, 0.3) * AngleAxisd(2, Vector3d(1, 2, 3).normalized());
 
@@ -155,11 +135,6 @@ std::vector<TubeShapes::Laid> laid_on(const TubeShapes& shapes, const CentrePath
   });
   std::ranges::stable_sort(ways, {}, &TubeShapes::Laid::strangeness);
   return ways;
-}
-
-TubeShapes equal_bars() {
-  const CentrePath bar = bent_bar(100 * degree, 100 * degree);
-  return {{bar, bar, bar}, bar_radius, 3};
 }
 
 // One end and the bend after it say where the other end is.
