@@ -201,46 +201,52 @@ bool drop_beside(const Support& support, AxisSteps& steps) {
   return std::erase_if(steps.fragments, [&](const Fragment&) { return is_beside[number++]; }) > 0;
 }
 
-// The steps from votes to labels. The grid of voxels that the votes are sorted into is moved by `shift`.
+// The steps from votes to labels. The grid of voxels that the votes are sorted into is moved by `shift`; with
+// others, these tries were made before.
 AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& scan,
-                      const AxisSettings& settings, double shift, const std::function<void()>& at_step) {
+                      const AxisSettings& settings, double shift, const std::vector<AxisModel>& tries,
+                      const std::function<void()>& at_step) {
   const KnownScene& known = scan.known;
   AxisModel result;
   Model& model = result.model;
   model.filtered = voting.filtered;
   for (const AxisVotes& votes : voting.of_kinds) result.kinds.emplace_back().votes = votes;
   StepClock clock(model.steps, at_step);
-  const auto for_each_kind = [&](auto step) {
-    for (std::size_t i = 0; i < known.kinds.size(); ++i) step(result.kinds[i], known.kinds[i]);
-  };
 
-  for_each_kind([&](AxisSteps& steps, const TubeKind& kind) {
-    steps.fragments = find_fragments(steps.votes, kind.radius, kind.branches(), settings.fragment, shift);
-  });
+  for (std::size_t i = 0; i < known.kinds.size(); ++i) {
+    const TubeKind& kind = known.kinds[i];
+    result.kinds[i].fragments =
+        find_fragments(result.kinds[i].votes, kind.radius, kind.branches(), settings.fragment, shift);
+  }
   clock.end_step("fragment", total(result.kinds, [](const auto& steps) { return steps.fragments.size(); }),
                  "fragments");
 
-  const auto join = [&](AxisSteps& steps) {
+  const auto join = [&](std::size_t kind) {
+    AxisSteps& steps = result.kinds[kind];
     steps.links = find_links(steps.fragments, seen, steps.kind, settings.link,
                              space_of_other_kinds(result.kinds, known, steps));
-    ChosenLinks chosen = choose_links(steps.fragments, steps.links, steps.kind, settings.link, seen);
+    ChosenLinks chosen = choose_links(steps.fragments, steps.links, steps.kind, settings.link, seen,
+                                      shapes_in(tries, kind, steps.kind));
     steps.chosen = std::move(chosen.links);
+    steps.shapes = std::move(chosen.shapes);
     steps.tubes = linked_fragments(steps.fragments.size(), steps.links, steps.chosen);
-    return std::move(chosen.shapes);
   };
-  for_each_kind([&](AxisSteps& steps, const TubeKind& known_kind) {
-    look_beyond_ends(steps.fragments, known_kind.radius, seen);
-    steps.kind = with_length(known_kind, fragments_in(known.support, steps.fragments), seen, settings.link);
-    if (cut_too_long(steps.fragments, steps.votes, known_kind.radius,
-                     length_max(steps.kind.length(), settings.link), settings.fragment))
-      look_beyond_ends(steps.fragments, known_kind.radius, seen);
-    const TubeShapes shapes = join(steps);
-    if (cut_mixed(steps.fragments, steps.votes, known_kind.radius, shapes, settings.fragment)) {
-      look_beyond_ends(steps.fragments, known_kind.radius, seen);
-      join(steps);
+  for (std::size_t i = 0; i < known.kinds.size(); ++i) {
+    AxisSteps& steps = result.kinds[i];
+    const double radius = known.kinds[i].radius;
+    look_beyond_ends(steps.fragments, radius, seen);
+    steps.kind =
+        with_length(known.kinds[i], fragments_in(known.support, steps.fragments), seen, settings.link);
+    if (cut_too_long(steps.fragments, steps.votes, radius, length_max(steps.kind.length(), settings.link),
+                     settings.fragment))
+      look_beyond_ends(steps.fragments, radius, seen);
+    join(i);
+    if (cut_mixed(steps.fragments, steps.votes, radius, steps.shapes, settings.fragment)) {
+      look_beyond_ends(steps.fragments, radius, seen);
+      join(i);
     }
-    while (drop_beside(known.support, steps)) join(steps);
-  });
+    while (drop_beside(known.support, steps)) join(i);
+  }
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");
 
   std::vector<std::vector<TubeCandidate>> candidates;
@@ -305,10 +311,10 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   RangeImage seen({}, known.camera, surely_solid_parts(known.support));
   for_each_seen(cropped, voting.filtered, ratio, seed, [&](std::size_t i) { seen.add(cloud.points[i]); });
   const OtherSurfaces others = other_surfaces(voting, known.support, cloud.points.size());
-  const auto model_with = [&](double shift) {
-    return model_votes(voting, seen, {cloud, cropped, known, others}, settings, shift, at_step);
-  };
   std::vector<AxisModel> tries;
+  const auto model_with = [&](double shift) {
+    return model_votes(voting, seen, {cloud, cropped, known, others}, settings, shift, tries, at_step);
+  };
   tries.push_back(model_with(0));
   for (const double shift : other_shifts) {
     if (!is_in_doubt(likeliest_of(tries).model, settings.fragment.sure_min)) break;

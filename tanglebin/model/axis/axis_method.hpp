@@ -8,6 +8,7 @@
 #include "tanglebin/model/axis/fragments/axis_votes.hpp"
 #include "tanglebin/model/axis/fragments/fragments.hpp"
 #include "tanglebin/model/axis/links/links.hpp"
+#include "tanglebin/model/axis/links/tube_shapes.hpp"
 #include "tanglebin/model/axis/settings/axis_settings.hpp"
 #include "tanglebin/model/axis/tube_fit.hpp"
 #include "tanglebin/model/scene/filter.hpp"
@@ -23,6 +24,7 @@ struct AxisSteps {
   std::vector<Fragment> fragments;
   std::vector<Link> links;
   std::vector<std::size_t> chosen;              ///< indices into links
+  TubeShapes shapes;                            ///< of whole tubes, if they are alike
   std::vector<std::vector<std::size_t>> tubes;  ///< the fragments of each tube, in the order of Model::tubes
   TubeKind kind{};  ///< of these tubes; with the length that was found, if none was known
 };

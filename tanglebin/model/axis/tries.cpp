@@ -4,22 +4,25 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <utility>
+#include <tuple>
 
 namespace tanglebin {
 namespace {
 
-// Whether both found the same lengths, or neither found any.
-bool have_same_lengths(const AxisModel& a, const AxisModel& b) {
+// Whether both are the same length, or neither is known.
+bool have_same_length(const TubeKind& a, const TubeKind& b) {
   constexpr double tolerance = 0.07;  // each is right to half of that
-  for (std::size_t i = 0; i < a.kinds.size(); ++i) {
-    const TubeKind& kind = a.kinds[i].kind;
-    const TubeKind& other = b.kinds[i].kind;
-    if ((kind.length_min > 0) != (other.length_min > 0)) return false;
-    if (kind.length_min > 0 && std::abs(kind.length() - other.length()) > tolerance * other.length())
-      return false;
-  }
-  return true;
+  if ((a.length_min > 0) != (b.length_min > 0)) return false;
+  return a.length_min <= 0 || std::abs(a.length() - b.length()) <= tolerance * b.length();
+}
+
+bool have_same_lengths(const AxisModel& a, const AxisModel& b) {
+  return std::ranges::equal(a.kinds, b.kinds, have_same_length, &AxisSteps::kind, &AxisSteps::kind);
+}
+
+// The number of kinds of which it is known what whole tubes look like.
+std::ptrdiff_t known_shapes(const AxisModel& tried) {
+  return std::ranges::count_if(tried.kinds, &TubeShapes::are_known, &AxisSteps::shapes);
 }
 
 }  // namespace
@@ -38,11 +41,19 @@ bool is_in_doubt(const Model& model, double sure_min) {
   return right < sure_min * points && right >= hopeless * points;
 }
 
+TubeShapes shapes_in(const std::vector<AxisModel>& tries, std::size_t number, const TubeKind& kind) {
+  for (const AxisModel& tried : tries) {
+    const AxisSteps& steps = tried.kinds[number];
+    if (steps.shapes.are_known() && have_same_length(steps.kind, kind)) return steps.shapes;
+  }
+  return {};
+}
+
 AxisModel& likeliest_of(std::vector<AxisModel>& tries) {
   const auto rank = [&](const AxisModel& tried) {
     const auto agreeing =
         std::ranges::count_if(tries, [&](const AxisModel& other) { return have_same_lengths(tried, other); });
-    return std::pair(2 * agreeing >= std::ssize(tries), probably_right(tried.model));
+    return std::tuple(2 * agreeing >= std::ssize(tries), known_shapes(tried), probably_right(tried.model));
   };
   return *std::ranges::max_element(tries, {}, rank);
 }

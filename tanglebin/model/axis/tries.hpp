@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "tanglebin/model/axis/axis_method.hpp"
+#include "tanglebin/model/axis/links/tube_shapes.hpp"
+#include "tanglebin/model/scene/known_scene.hpp"
 #include "tanglebin/model/scene/model.hpp"
 
 // Internal to the room.
@@ -15,9 +18,14 @@ double probably_right(const Model& model);
 /// points on tubes are probably right. In a cloud of noise, they will not.
 bool is_in_doubt(const Model& model, double sure_min);
 
+/// What one of the models, which has found the same length, knows of the shapes of tubes of this kind, the
+/// `number`th one. Nothing is known if none does.
+TubeShapes shapes_in(const std::vector<AxisModel>& tries, std::size_t number, const TubeKind& kind);
+
 /// Of at least one model of the same cloud, the one with the most points that are probably right. Where at
 /// least half of the models have found the same length of the tubes, or none, it is one of them: at too large
-/// a length, false tubes look right.
+/// a length, false tubes look right. So they do where it is not known what whole tubes look like: where some
+/// of the models know, it is one of these.
 AxisModel& likeliest_of(std::vector<AxisModel>& tries);
 
 }  // namespace tanglebin

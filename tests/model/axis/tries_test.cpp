@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "tests/model/axis/links/bent_bar.hpp"
+
 namespace tanglebin {
 namespace {
 
@@ -60,6 +62,27 @@ TEST(Tries, ThatDidNotFindTheLengthDoNotCountWhereMostDid) {
   EXPECT_EQ(length_of_likeliest(
                 {model_with(0.5, 0.8), model_without_a_length(0.6, 0.7), model_without_a_length(0.7, 0.99)}),
             0.7);
+}
+
+AxisModel model_with_shapes(double length, double confidence) {
+  AxisModel result = model_with(length, confidence);
+  result.kinds[0].shapes = test::equal_bars();
+  return result;
+}
+
+// Where it is not known what whole tubes look like, false tubes look right.
+TEST(Tries, ThatDoNotKnowTheShapeDoNotCountWhereOthersDo) {
+  std::vector<AxisModel> tries = {model_with_shapes(0.5, 0.8), model_with(0.5, 0.9),
+                                  model_with_shapes(0.5, 0.85)};
+  EXPECT_EQ(&likeliest_of(tries), &tries[2]);
+}
+
+TEST(Tries, ShareWhatTheyKnowOfTheShapeIfTheyFoundTheSameLength) {
+  const std::vector<AxisModel> tries = {model_with(0.5, 0.9), model_with_shapes(0.3, 0.9),
+                                        model_with_shapes(0.5, 0.9)};
+  EXPECT_FALSE(shapes_in({}, 0, tries[0].kinds[0].kind).are_known());
+  EXPECT_FALSE(shapes_in({tries[0], tries[1]}, 0, tries[0].kinds[0].kind).are_known());
+  EXPECT_TRUE(shapes_in(tries, 0, tries[0].kinds[0].kind).are_bent());
 }
 
 }  // namespace

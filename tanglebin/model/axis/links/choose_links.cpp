@@ -162,40 +162,19 @@ std::vector<std::size_t> possible_matching(const LinkCandidates& candidates, con
   }
 }
 
-// Of the links between these fragments, the weakest; infinite if there is none.
-double weakest_link(const LinkCandidates& candidates, const std::vector<std::size_t>& fragments,
-                    const std::vector<std::size_t>& chosen) {
-  double weakest = std::numeric_limits<double>::infinity();
-  for (const std::size_t i : chosen) {
-    if (std::ranges::binary_search(fragments, candidates.links[i].fragment))
-      weakest = std::min(weakest, candidates.links[i].weight);
-  }
-  return weakest;
-}
-
-// What the whole chains among the chosen look like. Without a known length, none is known to be whole. If too
-// few are alike, some may be wrong: then only those without a doubtful link count, if they are bent, since
-// bent ones are not alike by chance.
+// What the whole chains among the chosen look like. Without a known length, none is known to be whole.
 TubeShapes shapes_of_whole_chains(const LinkCandidates& candidates, const std::vector<std::size_t>& chosen) {
   constexpr double nearly = 0.05;  // of the length
-  constexpr double sure = 15;      // log odds
-  constexpr std::size_t enough = 3;
-  constexpr std::size_t enough_sure_ones = 2;
   const TubeKind& kind = candidates.kind;
-  std::vector<CentrePath> whole;
-  std::vector<CentrePath> sure_ones;
   if (kind.length_min <= 0) return {};
+  std::vector<CentrePath> whole;
   for (const auto& members : linked_fragments(candidates.fragments.size(), candidates.links, chosen)) {
     CentrePath path = centre_path(candidates, members, chosen);
     const double length = path_length(path);
-    if (length <= (1 - nearly) * kind.length_min || length >= (1 + nearly) * kind.length()) continue;
-    if (weakest_link(candidates, members, chosen) > sure) sure_ones.push_back(path);
-    whole.push_back(std::move(path));
+    if (length > (1 - nearly) * kind.length_min && length < (1 + nearly) * kind.length())
+      whole.push_back(std::move(path));
   }
-  TubeShapes of_all(whole, kind.radius, enough);
-  if (of_all.are_known()) return of_all;
-  TubeShapes of_sure_ones(sure_ones, kind.radius, enough_sure_ones);
-  return of_sure_ones.are_bent() ? of_sure_ones : TubeShapes();
+  return {whole, kind.radius};
 }
 
 // The likeliest combination of links.
@@ -215,11 +194,13 @@ ChosenLinks likeliest(const LinkCandidates& candidates) {
 }  // namespace
 
 ChosenLinks choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
-                         const TubeKind& kind, const LinkSettings& settings, const RangeImage& seen) {
+                         const TubeKind& kind, const LinkSettings& settings, const RangeImage& seen,
+                         const TubeShapes& otherwise) {
   LinkCandidates candidates(fragments, links, kind, settings, seen);
   ChosenLinks chosen = likeliest(candidates);
   if (kind.branches()) return chosen;
   TubeShapes shapes = shapes_of_whole_chains(candidates, chosen.links);
+  if (!shapes.are_known()) shapes = otherwise;
   if (!shapes.are_known()) return chosen;
   candidates.set_shapes(std::move(shapes));
   chosen = likeliest(candidates);

@@ -133,34 +133,19 @@ struct TubeShapes::Sample {
   double pairs() const { return static_cast<double>(std::max<std::size_t>(distance.size(), 1)); }
 };
 
-TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius, std::size_t enough)
-    : radius_(radius) {
-  constexpr double alike = 1;    // radii of misfit
-  constexpr double exact = 0.2;  // radii; no two tubes are known to be more alike
-  constexpr double bent = 6;     // spreads, from a straight tube
+TubeShapes::TubeShapes(const std::vector<CentrePath>& tubes, double radius) : radius_(radius) {
+  constexpr double alike = 1;  // radii of misfit
+  constexpr double very_much_alike = 0.5;
+  constexpr std::size_t enough = 3;
+  constexpr std::size_t enough_bent_ones = 2;
   std::vector<Distances> all;
   all.reserve(tubes.size());
   for (const CentrePath& tube : tubes) all.push_back(distances_along(tube));
-  std::vector<double> misfits;
-  for (std::size_t i = 0; i < tubes.size(); ++i) {
-    const Sample tube(tubes[i], step_length());
-    float least = std::numeric_limits<float>::infinity();
-    for (std::size_t j = 0; j < tubes.size(); ++j) {
-      if (j != i) least = least_squares(tube, all[j], least, 0);
-    }
-    const double misfit = tube.root_mean(least);
-    if (misfit >= alike * radius) continue;
-    misfits.push_back(misfit);
-    tubes_.push_back(all[i]);
-  }
-  if (tubes_.size() < enough || 2 * tubes_.size() < tubes.size()) {
-    tubes_.clear();
-    return;
-  }
-  spread_ = std::max(median(std::move(misfits)), exact * radius);
-  std::vector<double> bends;
-  for (const Distances& tube : tubes_) bends.push_back(misfit_with_straight(tube));
-  are_bent_ = median(std::move(bends)) > bent * spread_;
+  const std::vector<double> misfits = misfits_with_others(tubes, all);
+  know(all, misfits, alike * radius);
+  if (tubes_.size() >= enough && 2 * tubes_.size() >= tubes.size()) return;
+  know(all, misfits, very_much_alike * radius);
+  if (tubes_.size() < enough_bent_ones || !are_bent_) *this = TubeShapes();
 }
 
 double TubeShapes::strangeness(const CentrePath& part, double ordinary) const {
@@ -180,6 +165,41 @@ TubeShapes::Distances TubeShapes::distances_along(const CentrePath& tube) const 
       distances.between.push_back(static_cast<float>((place - other).norm()));
   }
   return distances;
+}
+
+// Of each tube, with the most similar other one, m.
+std::vector<double> TubeShapes::misfits_with_others(const std::vector<CentrePath>& tubes,
+                                                    const std::vector<Distances>& all) const {
+  std::vector<double> misfits;
+  misfits.reserve(tubes.size());
+  for (std::size_t i = 0; i < tubes.size(); ++i) {
+    const Sample tube(tubes[i], step_length());
+    float least = std::numeric_limits<float>::infinity();
+    for (std::size_t j = 0; j < tubes.size(); ++j) {
+      if (j != i) least = least_squares(tube, all[j], least, 0);
+    }
+    misfits.push_back(tube.root_mean(least));
+  }
+  return misfits;
+}
+
+// Knows the tubes whose misfit, m, is less than this, and no others.
+void TubeShapes::know(const std::vector<Distances>& all, const std::vector<double>& misfits,
+                      double misfit_max) {
+  constexpr double exact = 0.2;  // radii; no two tubes are known to be more alike
+  constexpr double bent = 6;     // spreads, from a straight tube
+  tubes_.clear();
+  std::vector<double> misfits_of_known;
+  std::vector<double> bends;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (misfits[i] >= misfit_max) continue;
+    tubes_.push_back(all[i]);
+    misfits_of_known.push_back(misfits[i]);
+    bends.push_back(misfit_with_straight(all[i]));
+  }
+  if (tubes_.empty()) return;
+  spread_ = std::max(median(std::move(misfits_of_known)), exact * radius_);
+  are_bent_ = median(std::move(bends)) > bent * spread_;
 }
 
 // Visits the matches of a part and a tube: either way round, from one end of the tube to the other, until the

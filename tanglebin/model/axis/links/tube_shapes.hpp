@@ -24,9 +24,10 @@ public:
   /// Nothing is known: no part is strange.
   TubeShapes() = default;
 
-  /// The shapes of whole tubes of this radius (m) that have another one like them. If these are fewer than
-  /// enough, or fewer than half of them, the tubes have no shape in common, and nothing is known.
-  TubeShapes(const std::vector<CentrePath>& tubes, double radius, std::size_t enough);
+  /// The shapes of whole tubes of this radius (m) that have another one like them. They count if they are at
+  /// least three, and at least half of all. If not, bent tubes that are very much alike count, which they are
+  /// not by chance: two are enough. Otherwise the tubes have no shape in common, and nothing is known.
+  TubeShapes(const std::vector<CentrePath>& tubes, double radius);
 
   bool are_known() const { return !tubes_.empty(); }
 
@@ -78,6 +79,9 @@ private:
 
   double step_length() const { return step * radius_; }  // m
   Distances distances_along(const CentrePath& tube) const;
+  std::vector<double> misfits_with_others(const std::vector<CentrePath>& tubes,
+                                          const std::vector<Distances>& all) const;
+  void know(const std::vector<Distances>& all, const std::vector<double>& misfits, double misfit_max);
   float least_squares(const Sample& part, const Distances& tube, float least, float enough) const;
   double misfit_with_straight(const Distances& tube) const;
   template <typename Visit>

@@ -39,7 +39,7 @@ inline CentrePath moved(const Eigen::Isometry3d& pose, CentrePath path) {
 /// Three bars with two bends of 100 degrees.
 inline TubeShapes equal_bars() {
   const CentrePath bar = bent_bar(100 * degree, 100 * degree);
-  return {{bar, bar, bar}, bar_radius, 3};
+  return {{bar, bar, bar}, bar_radius};
 }
 
 }  // namespace tanglebin::test

@@ -116,11 +116,29 @@ TEST(ChooseLinks, MakeNoTubeThatLooksLikeNoOther) {
   EXPECT_THAT(chosen_of(pieces, kind), SizeIs(1));
   pieces.push_back(bent_fragment({0.3, 0, 0.05}));
   EXPECT_THAT(chosen_of(pieces, kind), SizeIs(1));
-  // Two that are bent alike are enough, if no doubtful link is in them.
+  // Two that are bent are enough, if they are very much alike.
   pieces.push_back(bent_fragment({0.3, 0.1, 0.05}));
   EXPECT_THAT(chosen_of(pieces, kind), IsEmpty());
   pieces.push_back(bent_fragment({0.3, 0.2, 0.05}));
   EXPECT_THAT(chosen_of(pieces, kind), IsEmpty());
+}
+
+// What is known from before counts where no whole tubes are seen.
+TEST(ChooseLinks, MakeNoTubeThatLooksUnlikeThoseThatAreKnown) {
+  const std::vector<Fragment> pieces = {straight_fragment({-0.12, -0.2, 0.05}, {-0.04, -0.2, 0.05}),
+                                        straight_fragment({0.04, -0.2, 0.05}, {0.12, -0.2, 0.05})};
+  TubeKind kind = chain_of(0.24);
+  kind.length_min = 0.24;
+  const RangeImage nothing_seen({}, camera_preset("paper"));
+  const std::vector<Link> links = find_links(pieces, nothing_seen, kind, {});
+  const CentrePath bar = bent_fragment({0, 0, 0}).nodes;
+  const TubeShapes bars({bar, bar, bar}, kind.radius);
+  const ChosenLinks chosen = choose_links(pieces, links, kind, {}, nothing_seen);
+  EXPECT_THAT(chosen.links, SizeIs(1));
+  EXPECT_FALSE(chosen.shapes.are_known());
+  const ChosenLinks among_bars = choose_links(pieces, links, kind, {}, nothing_seen, bars);
+  EXPECT_THAT(among_bars.links, IsEmpty());
+  EXPECT_TRUE(among_bars.shapes.are_bent());
 }
 
 // A square of the floor, 8 cm wide: above it nothing is in the way.

@@ -119,7 +119,7 @@ TEST(MixedFragments, AreNotCutWhereNoShapeIsKnown) {
 // A hose and a longer one: nothing tells where one of them ends.
 TEST(MixedFragments, AreNotCutWhereTubesAreNotBent) {
   const CentrePath hose = bent_bar(8 * degree, 8 * degree);
-  const TubeShapes hoses({hose, hose, hose}, bar_radius, 3);
+  const TubeShapes hoses({hose, hose, hose}, bar_radius);
   ASSERT_TRUE(hoses.are_known());
   const AxisVotes votes = two_bars_in_line();
   std::vector<Fragment> found = bar_fragments(votes);

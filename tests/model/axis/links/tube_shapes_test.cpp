@@ -35,8 +35,7 @@ TubeShapes bent_bars() {
   return {{bent_bar(90 * degree, 110 * degree), bent_bar(100 * degree, 100 * degree),
            moved(elsewhere, bent_bar(110 * degree, 90 * degree)), bent_bar(95 * degree, 95 * degree),
            bent_bar(105 * degree, 108 * degree)},
-          bar_radius,
-          3};
+          bar_radius};
 }
 
 CentrePath part(const CentrePath& path, std::ptrdiff_t first, std::ptrdiff_t last) {
@@ -85,21 +84,37 @@ TEST(TubeShapes, WhatNoTubeHasIsStrange) {
 TEST(TubeShapes, TubesThatAreNotAlikeHaveNoShape) {
   EXPECT_FALSE(TubeShapes({bent_bar(0, 0), bent_bar(60 * degree, 0), bent_bar(100 * degree, 100 * degree),
                            bent_bar(100 * degree, -100 * degree)},
-                          bar_radius, 3)
+                          bar_radius)
                    .are_known());
 }
 
-TEST(TubeShapes, TwoTubesAreTooFew) {
-  EXPECT_FALSE(
-      TubeShapes({bent_bar(100 * degree, 100 * degree), bent_bar(100 * degree, 100 * degree)}, bar_radius, 3)
-          .are_known());
+// Bent ones are not alike by chance.
+TEST(TubeShapes, TwoBarsThatAreVeryMuchAlikeAreEnough) {
+  const CentrePath bar = bent_bar(100 * degree, 100 * degree);
+  const CentrePath straight = bent_bar(0, 0);
+  const CentrePath other = bent_bar(30 * degree, 60 * degree);
+  const TubeShapes shapes({straight, bar, other, moved(elsewhere, bar), bent_bar(0, 120 * degree)},
+                          bar_radius);
+  EXPECT_TRUE(shapes.are_bent());
+  EXPECT_THAT(shapes.strangeness(bar), Le(1.5));
+  EXPECT_THAT(shapes.strangeness(straight), Ge(2.5));
+  EXPECT_THAT(shapes.strangeness(other), Ge(2.5));
+  EXPECT_FALSE(TubeShapes({bar, bent_bar(120 * degree, 80 * degree)}, bar_radius).are_known())
+      << "a little alike";
+}
+
+TEST(TubeShapes, TwoHosesAreTooFew) {
+  const CentrePath hose = bent_bar(8 * degree, 8 * degree);
+  EXPECT_FALSE(TubeShapes({hose, hose}, bar_radius).are_known());
+  EXPECT_FALSE(TubeShapes({hose}, bar_radius).are_known());
+  EXPECT_FALSE(TubeShapes({}, bar_radius).are_known());
 }
 
 // A false tube that was taken for a whole one is not like the others.
 TEST(TubeShapes, ATubeThatIsLikeNoOtherDoesNotCount) {
   const TubeShapes shapes({bent_bar(90 * degree, 110 * degree), bent_bar(100 * degree, 100 * degree),
                            bent_bar(105 * degree, 95 * degree), bent_bar(0, 0)},
-                          bar_radius, 3);
+                          bar_radius);
   ASSERT_TRUE(shapes.are_known());
   EXPECT_THAT(shapes.strangeness(bent_bar(0, 0)), Ge(2.5));
 }
@@ -108,7 +123,7 @@ TEST(TubeShapes, BarsAreBentAndHosesAreNot) {
   EXPECT_TRUE(bent_bars().are_bent());
   const CentrePath hose = bent_bar(8 * degree, 8 * degree);
   const TubeShapes hoses({hose, bent_bar(10 * degree, 8 * degree), bent_bar(8 * degree, 4 * degree)},
-                         bar_radius, 3);
+                         bar_radius);
   ASSERT_TRUE(hoses.are_known());
   EXPECT_FALSE(hoses.are_bent());
   EXPECT_FALSE(TubeShapes().are_bent());
