@@ -181,7 +181,8 @@ TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, cons
   const bool is_sure = likeliest.chains >= enough;
   if (is_sure && !is_known) return of_length(kind, likeliest.length);
   if (is_known) {
-    if (is_sure && evidence_for(kind, fragments, links, seen, settings) < likeliest.evidence)
+    const bool is_longer = likeliest.length > kind.length();
+    if (is_sure && is_longer && evidence_for(kind, fragments, links, seen, settings) < likeliest.evidence)
       kind.segments[0].length = likeliest.length;
     return kind;
   }

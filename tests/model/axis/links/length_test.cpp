@@ -90,6 +90,14 @@ TEST(WithLength, IsNotTheOneGivenIfThreeTubesAreLonger) {
   EXPECT_EQ(modelled_with({longer[0], longer[1]}, 0, 0.22).kinds[0].kind.length(), 0.22);
 }
 
+// Something longer makes the length doubtful, but it says nothing for a shorter one.
+TEST(WithLength, IsTheOneGivenIfTubesAreShorter) {
+  std::vector<Tube> tubes = two_in_line();
+  tubes.push_back(test::chain(5, 0.0125, {{-0.2, 0.15, 0.0125}, {0.2, 0.15, 0.0125}}));
+  EXPECT_EQ(modelled_with(tubes, 0.3, 0.3).kinds[0].kind.length(), 0.3);
+  EXPECT_EQ(modelled_with(tubes, 0, 0.3).kinds[0].kind.length(), 0.3);
+}
+
 // Three pairs in line, which look like one tube each, with their ends under another; six that lie alone; and
 // something longer, such as the rim of a bin.
 TEST(WithLength, IsTheOneGivenIfOnlySomethingElseIsLonger) {
