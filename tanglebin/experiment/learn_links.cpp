@@ -141,9 +141,10 @@ LinkWeights as_weights(const LinkVector& vector) {
 }
 
 // The sum of the features of the links that are chosen among these, heaviest first. None for trees: their
-// choice is greedy, so its mistakes say little of the weights.
-LinkVector features_of_chosen(const LinkScene& scene, const std::vector<Link>& links,
-                              const LinkSettings& settings) {
+// choice is greedy, so its mistakes say little of the weights. All of what angles weigh counts, since it is
+// learned where nothing tells more.
+LinkVector features_of_chosen(const LinkScene& scene, const std::vector<Link>& links, LinkSettings settings) {
+  settings.bent_angles = 1;
   LinkVector sum = LinkVector::Zero();
   if (scene.kind.branches()) return sum;
   for (const std::size_t i : choose_links(scene.fragments, links, scene.kind, settings, scene.seen).links) {

@@ -196,6 +196,10 @@ void for_each_parameter(Settings& settings, Visit visit) {
   visit({"axis.link.bent_empty", "log odds that a radius of a bent chain costs that was seen to be empty",
          up_to(1000), by_steps(0, 16)},
         settings.axis.link.bent_empty);
+  visit({"axis.link.bent_angles",
+         "share of the weights of angles that counts where the whole chains of the scan are bent", share,
+         by_steps(0, 1)},
+        settings.axis.link.bent_angles);
   for (const LinkKind kind : link_kinds) {
     for (std::size_t i = 0; i < link_features; ++i)
       visit({name_of_weight(kind, i), "log odds per unit of this feature of a link", any_weight},

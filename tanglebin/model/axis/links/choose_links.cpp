@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
 
+#include "tanglebin/base/picked.hpp"
 #include "tanglebin/model/axis/links/link_candidates.hpp"
 #include "tanglebin/model/axis/links/matching.hpp"
 #include "tanglebin/model/axis/links/selection.hpp"
@@ -191,21 +193,55 @@ ChosenLinks likeliest(const LinkCandidates& candidates) {
   return {.links = selection.taken(), .log_odds = selection.weight(), .shapes = {}};
 }
 
+// What its angles add to a link's weight.
+double weight_of_angles(const Link& link, const LinkSettings& settings) {
+  double sum = 0;
+  for (const std::size_t feature : angle_features)
+    sum += settings.weights.of(link.kind)[feature] * link.features[feature];
+  return ends_taken(link.kind) * sum;
+}
+
+/// Links with other weights, heaviest first.
+struct Reweighed {
+  std::vector<Link> links;
+  std::vector<std::size_t> before;  ///< for each, its index among those that it comes from
+};
+
+// The same links, with this share of what angles weigh.
+Reweighed with_share_of_angles(double share, std::vector<Link> links, const LinkSettings& settings) {
+  for (Link& link : links) link.weight -= (1 - share) * weight_of_angles(link, settings);
+  std::vector<std::size_t> order(links.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return links[i].weight; });
+  return {.links = picked(links, order), .before = order};
+}
+
+// The likeliest combination of links of chains that look like these. Bent ones may turn sharply where that is
+// hidden, and what they look like tells more than angles.
+ChosenLinks likeliest_like(TubeShapes shapes, const LinkCandidates& candidates) {
+  const LinkSettings& settings = candidates.settings;
+  const double share = shapes.are_bent() ? settings.bent_angles : 1;
+  const auto [links, before] = with_share_of_angles(share, candidates.links, settings);
+  LinkCandidates alike(candidates.fragments, links, candidates.kind, settings, candidates.seen);
+  alike.set_shapes(std::move(shapes));
+  ChosenLinks chosen = likeliest(alike);
+  for (std::size_t& link : chosen.links) link = before[link];
+  std::ranges::sort(chosen.links);
+  chosen.shapes = std::move(alike.shapes);
+  return chosen;
+}
+
 }  // namespace
 
 ChosenLinks choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
                          const TubeKind& kind, const LinkSettings& settings, const RangeImage& seen,
                          const TubeShapes& otherwise) {
-  LinkCandidates candidates(fragments, links, kind, settings, seen);
+  const LinkCandidates candidates(fragments, links, kind, settings, seen);
   ChosenLinks chosen = likeliest(candidates);
   if (kind.branches()) return chosen;
   TubeShapes shapes = shapes_of_whole_chains(candidates, chosen.links);
   if (!shapes.are_known()) shapes = otherwise;
-  if (!shapes.are_known()) return chosen;
-  candidates.set_shapes(std::move(shapes));
-  chosen = likeliest(candidates);
-  chosen.shapes = std::move(candidates.shapes);
-  return chosen;
+  return shapes.are_known() ? likeliest_like(std::move(shapes), candidates) : chosen;
 }
 
 std::vector<std::vector<std::size_t>> linked_fragments(std::size_t fragments, const std::vector<Link>& links,

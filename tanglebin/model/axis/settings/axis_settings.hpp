@@ -76,7 +76,8 @@ struct LinkSettings {
   double strangeness_max = 2.0;     ///< TubeShapes::strangeness() of a chain that costs nothing
   double strangeness_weight = 3.0;  ///< log odds that a unit above it costs
   double bent_weight = 10.0;        ///< the same where the whole chains of the scan are bent
-  double bent_empty = 4.0;  ///< log odds that a radius of a bent chain costs that was seen to be empty
+  double bent_empty = 4.0;   ///< log odds that a radius of a bent chain costs that was seen to be empty
+  double bent_angles = 0.7;  ///< share of the weights of angles that counts where whole chains are bent
   LinkWeights weights = learned_weights;
 };
 

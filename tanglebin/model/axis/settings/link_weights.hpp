@@ -21,6 +21,9 @@ namespace tanglebin {
 inline constexpr std::size_t link_features = 12;
 using LinkFeatures = std::array<double, link_features>;
 
+/// Indices of the features of links between ends that say how sharply the tube turns.
+inline constexpr std::array<std::size_t, 5> angle_features = {3, 4, 5, 8, 9};
+
 /// The kinds of links.
 enum class LinkKind {
   chain_ends,  ///< between two ends of chains
@@ -56,8 +59,8 @@ struct LinkWeights {
 /// Learned by `tanglebin learn` from recipes/learning.toml and recipes/learning-views.toml, rounded to four
 /// decimals.
 inline constexpr LinkWeights learned_weights = {
-    .chain_ends = {12.5553, -1.8596, 0.0000, -9.2824, 1.1423, 3.3042, -7.4517, -9.6619, -0.2477, -4.0117,
-                   -2.0405, -0.4822},
+    .chain_ends = {12.7730, -1.9205, 0.0000, -9.4036, 1.1869, 3.3541, -6.9187, -9.6619, -0.3325, -4.1566,
+                   -2.1049, -0.4889},
     .tree_ends = {11.1742, -1.5026, -0.2483, -9.8905, 0.9548, 4.8162, -14.1562, -4.7583, 0.2393, -1.6935,
                   -1.0951, -0.1948},
     .junction = {3.5911, -0.7635, -0.3208, -9.3447, 2.7652, -1.0841, -23.1571, 1.0808, -0.2595, 0.0000,

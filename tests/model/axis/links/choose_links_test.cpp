@@ -141,6 +141,29 @@ TEST(ChooseLinks, MakeNoTubeThatLooksUnlikeThoseThatAreKnown) {
   EXPECT_TRUE(among_bars.shapes.are_bent());
 }
 
+// An arm of a right angle, and what may be a piece of the other arm, or go straight on to a third piece.
+TEST(ChooseLinks, OfBentTubesMayTurnSharplyWhereThatIsHidden) {
+  const std::vector<Fragment> pieces = {straight_fragment({-0.1, 0, 0.05}, {-0.03, 0, 0.05}),
+                                        straight_fragment({0, 0.03, 0.05}, {0, 0.1, 0.05}),
+                                        straight_fragment({0, -0.01, 0.05}, {0, 0.01, 0.05})};
+  const auto link = [&](std::size_t from, std::size_t end, double weight, double angle) {
+    Link result{LinkKind::chain_ends, from, end, {1, 0, 0, pieces[1].ends[0].position}, 0.03,
+                {1, 0, 0, angle}};
+    result.weight = weight;
+    return result;
+  };
+  const std::vector<Link> links = {link(2, 1, 11, 0), link(0, 1, 10, 1.5)};
+  TubeKind kind = chain_of(0.24);
+  kind.length_min = 0.24;
+  const RangeImage nothing_seen({}, camera_preset("paper"));
+  const CentrePath bar = bent_fragment({0, 0, 0}).nodes;
+  const TubeShapes bars({bar, bar, bar}, kind.radius);
+  LinkSettings settings;
+  EXPECT_THAT(choose_links(pieces, links, kind, settings, nothing_seen, bars).links, ElementsAre(1));
+  settings.bent_angles = 1;
+  EXPECT_THAT(choose_links(pieces, links, kind, settings, nothing_seen, bars).links, ElementsAre(0));
+}
+
 // A square of the floor, 8 cm wide: above it nothing is in the way.
 RangeImage floor_seen_at(const Vector3d& middle) {
   std::vector<Eigen::Vector3f> points;
