@@ -201,8 +201,8 @@ bool drop_beside(const Support& support, AxisSteps& steps) {
   return std::erase_if(steps.fragments, [&](const Fragment&) { return is_beside[number++]; }) > 0;
 }
 
-// The steps from votes to labels. The grid of voxels that the votes are sorted into is moved by `shift`; with
-// others, these tries were made before.
+// The steps from votes to labels. The grid of voxels that the votes are sorted into is moved by `shift`;
+// `tries` were made before, with other shifts.
 AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& scan,
                       const AxisSettings& settings, double shift, const std::vector<AxisModel>& tries,
                       const std::function<void()>& at_step) {
