@@ -52,7 +52,6 @@ TEST(LearnWeights, LetNoLinkBeLikelierForALongerGap) {
 // The mean share of the links chosen with these weights that are true.
 double share_of_true(const std::vector<LinkScene>& scenes, const LinkWeights& weights) {
   LinkSettings settings;
-  settings.bent_angles = 1;  // as learned
   settings.weights = weights;
   double true_ones = 0;
   double chosen = 0;
@@ -79,7 +78,7 @@ TEST(LearnWeights, ChooseTrueLinks) {
   EXPECT_GT(share_of_true(scenes, learned), 0.95);
   EXPECT_LE(learned.chain_ends[2], 0) << "a longer gap makes no link likelier";
   LinkWeights wrong = learned;
-  for (double& weight : wrong.chain_ends) weight = 0;
+  for (double& weight : wrong.chain_ends) weight = -weight;
   EXPECT_LT(share_of_true(scenes, wrong), share_of_true(scenes, learned));
 }
 

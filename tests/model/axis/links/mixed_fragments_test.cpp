@@ -18,7 +18,6 @@ using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
-using Eigen::Vector3f;
 using testing::SizeIs;
 
 using test::bar_radius;
@@ -63,6 +62,13 @@ bool cut_bars(std::vector<Fragment>& fragments, const AxisVotes& votes, const Tu
   return cut_mixed(fragments, votes, bar_radius, shapes, {});
 }
 
+void expect_one_that_stays_whole(const AxisVotes& votes, const TubeShapes& shapes) {
+  std::vector<Fragment> found = bar_fragments(votes);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_FALSE(cut_bars(found, votes, shapes));
+  EXPECT_THAT(found, SizeIs(1));
+}
+
 TEST(MixedFragments, AreCutWhereTheTubesMeet) {
   const AxisVotes votes = two_bars_in_line();
   std::vector<Fragment> found = bar_fragments(votes);
@@ -87,10 +93,7 @@ TEST(MixedFragments, AreCutWhereTheTubesMeet) {
 TEST(MixedFragments, NoTubeIsCut) {
   AxisVotes votes;
   add_bar(votes, bar);
-  std::vector<Fragment> found = bar_fragments(votes);
-  ASSERT_THAT(found, SizeIs(1));
-  EXPECT_FALSE(cut_bars(found, votes, equal_bars()));
-  EXPECT_THAT(found, SizeIs(1));
+  expect_one_that_stays_whole(votes, equal_bars());
 }
 
 // A bar that is bent otherwise is not mended by a cut.
@@ -103,17 +106,11 @@ TEST(MixedFragments, WhatHasNoOrdinaryPartsStaysWhole) {
   }
   AxisVotes votes;
   add_bar(votes, circle);
-  std::vector<Fragment> found = bar_fragments(votes);
-  ASSERT_THAT(found, SizeIs(1));
-  EXPECT_FALSE(cut_bars(found, votes, equal_bars()));
-  EXPECT_THAT(found, SizeIs(1));
+  expect_one_that_stays_whole(votes, equal_bars());
 }
 
 TEST(MixedFragments, AreNotCutWhereNoShapeIsKnown) {
-  const AxisVotes votes = two_bars_in_line();
-  std::vector<Fragment> found = bar_fragments(votes);
-  EXPECT_FALSE(cut_bars(found, votes, TubeShapes()));
-  EXPECT_THAT(found, SizeIs(1));
+  expect_one_that_stays_whole(two_bars_in_line(), TubeShapes());
 }
 
 // A hose and a longer one: nothing tells where one of them ends.
@@ -121,10 +118,7 @@ TEST(MixedFragments, AreNotCutWhereTubesAreNotBent) {
   const CentrePath hose = bent_bar(8 * degree, 8 * degree);
   const TubeShapes hoses({hose, hose, hose}, bar_radius);
   ASSERT_TRUE(hoses.are_known());
-  const AxisVotes votes = two_bars_in_line();
-  std::vector<Fragment> found = bar_fragments(votes);
-  EXPECT_FALSE(cut_bars(found, votes, hoses));
-  EXPECT_THAT(found, SizeIs(1));
+  expect_one_that_stays_whole(two_bars_in_line(), hoses);
 }
 
 }  // namespace
