@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -222,8 +221,8 @@ ChosenLinks likeliest_like(TubeShapes shapes, const LinkCandidates& candidates) 
   const LinkSettings& settings = candidates.settings;
   const double share = shapes.are_bent() ? settings.bent_angles : 1;
   const auto [links, before] = with_share_of_angles(share, candidates.links, settings);
-  LinkCandidates alike(candidates.fragments, links, candidates.kind, settings, candidates.seen);
-  alike.set_shapes(std::move(shapes));
+  LinkCandidates alike(candidates.fragments, links, candidates.kind, settings, candidates.seen,
+                       std::move(shapes));
   ChosenLinks chosen = likeliest(alike);
   for (std::size_t& link : chosen.links) link = before[link];
   std::ranges::sort(chosen.links);

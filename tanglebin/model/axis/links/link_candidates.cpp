@@ -87,7 +87,6 @@ void add_numbers(LinkCandidates& candidates) {
 }
 
 void add_parts(LinkCandidates& candidates) {
-  candidates.alone.clear();
   for (std::size_t i = 0; i < candidates.fragments.size(); ++i) {
     const Fragment& fragment = candidates.fragments[i];
     const int ends = static_cast<int>(fragment.ends.size());
@@ -105,21 +104,18 @@ void add_parts(LinkCandidates& candidates) {
 }  // namespace
 
 LinkCandidates::LinkCandidates(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
-                               const TubeKind& kind, const LinkSettings& settings, const RangeImage& seen)
+                               const TubeKind& kind, const LinkSettings& settings, const RangeImage& seen,
+                               TubeShapes shapes)
     : fragments(fragments),
       links(links),
       kind(kind),
       settings(settings),
       seen(seen),
       tube_length_max(length_max(kind.length(), settings)),
-      tube_ends_max(count_ends(kind.segments) + settings.ends_tolerance) {
+      tube_ends_max(count_ends(kind.segments) + settings.ends_tolerance),
+      shapes(std::move(shapes)) {
   add_graph(*this);
   add_numbers(*this);
-  add_parts(*this);
-}
-
-void LinkCandidates::set_shapes(TubeShapes known) {
-  shapes = std::move(known);
   add_parts(*this);
 }
 

@@ -28,11 +28,9 @@ struct Part {
 /// The links that choose_links() chooses from, as a graph: it has a vertex for each end of a fragment, and
 /// one for the junction that each end may lead to.
 struct LinkCandidates {
+  /// If shapes are known, chains have costs for looking unlike them.
   LinkCandidates(const std::vector<Fragment>& fragments, const std::vector<Link>& links, const TubeKind& kind,
-                 const LinkSettings& settings, const RangeImage& seen);
-
-  /// From now on, chains have costs for looking unlike these.
-  void set_shapes(TubeShapes known);
+                 const LinkSettings& settings, const RangeImage& seen, TubeShapes shapes = {});
 
   const std::vector<Fragment>& fragments;
   const std::vector<Link>& links;  ///< heaviest first
