@@ -122,6 +122,14 @@ std::vector<Output> outputs(const ModelArguments& arguments) {
   return files;
 }
 
+ResolvedScene resolved_scene(const ModelArguments& arguments, const Measurement& measured) {
+  if (!arguments.locates) return resolve(measured.scene, measured.cloud);
+  const LocatedScene located = locate_support(measured.scene, measured.cloud);
+  ResolvedScene resolved = resolve(located.scene, measured.cloud);
+  resolved.notes.insert(resolved.notes.end(), located.doubts.begin(), located.doubts.end());
+  return resolved;
+}
+
 void model_cloud(const ModelArguments& arguments) {
   expect_outputs(outputs(arguments),
                  inputs_with(arguments.scene.scene, {arguments.cloud, arguments.model.profile,
@@ -131,12 +139,8 @@ void model_cloud(const ModelArguments& arguments) {
   const Scene told = scene_of(arguments.scene, arguments.cloud);
   const Measurement measured =
       read_input(arguments.cloud, [&](auto&&... from) { return read_measurement(from..., told); });
-  const ResolvedScene resolved = with_file(arguments.cloud, [&] {
-    if (!arguments.locates) return resolve(measured.scene, measured.cloud);
-    const LocatedScene located = locate_support(measured.scene, measured.cloud);
-    ResolvedScene of_located = resolve(located.scene, measured.cloud);
-    of_located.notes.insert(of_located.notes.end(), located.doubts.begin(), located.doubts.end());
-    return of_located;
+  const ResolvedScene resolved = with_places(arguments.scene, [&] {
+    return with_file(arguments.cloud, [&] { return resolved_scene(arguments, measured); });
   });
   print_notes(resolved.notes);
   print_doubts(profile, resolved.known, arguments.model.profile);

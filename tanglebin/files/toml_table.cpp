@@ -18,18 +18,6 @@ namespace {
 constexpr std::int64_t int_min = std::numeric_limits<int>::min();
 constexpr std::int64_t int_max = std::numeric_limits<int>::max();
 
-// The line of what validate() calls `field`, or else of the innermost table around it. An angle's key has its
-// unit.
-std::size_t line_of(const TomlSource& source, std::string field) {
-  while (!field.empty()) {
-    for (const char* unit : {"", "_deg"})
-      if (const std::size_t line = source.line(field + unit)) return line;
-    const std::size_t last = field.find_last_of(".[");
-    field.resize(last == std::string::npos ? 0 : last);
-  }
-  return 0;
-}
-
 }  // namespace
 
 std::string real_text(double value) {
@@ -86,6 +74,16 @@ std::size_t TomlSource::line(const std::string& path) const {
   return found == lines_.end() ? 0 : found->second;
 }
 
+std::size_t TomlSource::line_of_field(std::string field) const {
+  while (!field.empty()) {
+    for (const char* unit : {"", "_deg"})
+      if (const std::size_t found = line(field + unit)) return found;
+    const std::size_t last = field.find_last_of(".[");
+    field.resize(last == std::string::npos ? 0 : last);
+  }
+  return 0;
+}
+
 void TomlSource::take_lines(const std::string& path, const std::string& original) {
   std::map<std::string, std::size_t> copies;
   for (const auto& [place, line] : lines_)
@@ -111,7 +109,7 @@ void validate_at(const TomlSource& source, const std::function<void()>& call) {
   try {
     call();
   } catch (const InputError& error) {
-    throw InputError({source.file(), line_of(source, error.place().field), ""}, error.what());
+    throw InputError({source.file(), source.line_of_field(error.place().field), ""}, error.what());
   }
 }
 

@@ -47,6 +47,10 @@ public:
   /// Where the value of this path begins; 0 if unknown.
   std::size_t line(const std::string& path) const;
 
+  /// The same of what validate() calls a field, or else of the innermost table around it. An angle's key has
+  /// its unit.
+  std::size_t line_of_field(std::string field) const;
+
   /// Gives a value, and everything in it, the lines of another, of which it is a copy.
   void take_lines(const std::string& path, const std::string& original);
 

@@ -246,17 +246,6 @@ RadiusEstimate radius_from(const PointCloud& cloud, const KnownScene& known,
   return found;
 }
 
-// A radius that is exactly known, or else 0.
-TubeKind kind_of(const TubeClass& tubes) {
-  TubeKind kind{.radius = 0, .segments = tubes.tree, .length_min = 0, .flat_ends = tubes.flat_ends};
-  if (tubes.radius && tubes.radius->min == tubes.radius->max) kind.radius = tubes.radius->min;
-  if (!tubes.tree.empty()) return kind;
-  const double longest = tubes.length ? tubes.length->max : std::numeric_limits<double>::infinity();
-  kind.segments = {{.from = 1, .to = 2, .length = longest}};
-  kind.length_min = tubes.length ? tubes.length->min : 0;
-  return kind;
-}
-
 void find_kinds(const Scene& scene, const std::function<void()>& at_place, ResolvedScene& resolved) {
   const std::vector<TubeClass> classes = scene.tubes.empty() ? std::vector<TubeClass>(1) : scene.tubes;
   resolved.known.kinds.clear();
@@ -264,7 +253,7 @@ void find_kinds(const Scene& scene, const std::function<void()>& at_place, Resol
     TubeKind kind = kind_of(tubes);
     if (kind.radius == 0) {
       if (classes.size() > 1)
-        throw InputError({"", 0, "radius"},
+        throw InputError({"", 0, fmt::format("tube[{}].radius", resolved.known.kinds.size())},
                          fmt::format("{} classes of tubes, one without a radius", classes.size()),
                          "a number for each; only the radius of a single class can be estimated");
       const RadiusEstimate found = radius_from(resolved.cloud, resolved.known, tubes.radius, at_place);
@@ -280,19 +269,21 @@ void find_kinds(const Scene& scene, const std::function<void()>& at_place, Resol
 
 // A bin's size limits the length in validate(KnownScene). A coiled cable may be many times as long as all
 // that is seen, but not a hundred times.
-void expect_length_of_size(const TubeKind& kind, double size) {
+void expect_length_of_size(const TubeKind& kind, double size, std::size_t index) {
   constexpr double too_many_times = 100;
   if (!kind.length_is_known() || kind.length() <= too_many_times * size) return;
-  throw InputError({"", 0, kind.branches() ? "tree" : "length"}, fmt::format("{} m", kind.length()),
-                   fmt::format("at most {:.3g} m, a hundred times the size of the cloud{}",
-                               too_many_times * size, hint_of_millimetres(kind.length())));
+  throw InputError(
+      {"", 0, fmt::format("tube[{}].{}", index, field_of_length(kind))}, fmt::format("{} m", kind.length()),
+      fmt::format("at most {:.3g} m, a hundred times the size of the cloud{}", too_many_times * size,
+                  hint_of_millimetres(kind.length())));
 }
 
 void expect_lengths_of_size(const ResolvedScene& resolved) {
   if (resolved.known.support.shape == Support::Shape::bin) return;
   const std::optional<double> size = extent(resolved.cloud);
   if (!size) return;
-  for (const TubeKind& kind : resolved.known.kinds) expect_length_of_size(kind, *size);
+  const std::vector<TubeKind>& kinds = resolved.known.kinds;
+  for (std::size_t i = 0; i < kinds.size(); ++i) expect_length_of_size(kinds[i], *size, i);
 }
 
 }  // namespace

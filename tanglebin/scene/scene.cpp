@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -67,7 +68,22 @@ void validate(const TubeClass& tubes, const std::string& where) {
 void validate(const Scene& scene) {
   validate(scene.camera);
   if (scene.support) check_under("support", [&] { validate(*scene.support); });
-  for (std::size_t i = 0; i < scene.tubes.size(); ++i) validate(scene.tubes[i], fmt::format("tube[{}]", i));
+  std::vector<TubeKind> kinds;
+  for (std::size_t i = 0; i < scene.tubes.size(); ++i) {
+    validate(scene.tubes[i], fmt::format("tube[{}]", i));
+    kinds.push_back(kind_of(scene.tubes[i]));
+  }
+  validate_together(kinds, scene.support.value_or(Support{.shape = Support::Shape::nothing}), "tube");
+}
+
+TubeKind kind_of(const TubeClass& tubes) {
+  TubeKind kind{.radius = 0, .segments = tubes.tree, .length_min = 0, .flat_ends = tubes.flat_ends};
+  if (tubes.radius && tubes.radius->min == tubes.radius->max) kind.radius = tubes.radius->min;
+  if (!tubes.tree.empty()) return kind;
+  const double longest = tubes.length ? tubes.length->max : std::numeric_limits<double>::infinity();
+  kind.segments = {{.from = 1, .to = 2, .length = longest}};
+  kind.length_min = tubes.length ? tubes.length->min : 0;
+  return kind;
 }
 
 bool is_empty(const Scene& scene) {

@@ -49,8 +49,11 @@ struct Scene {
 };
 
 /// Throws InputError naming the field that is invalid, as a scene file names it: "camera.fx",
-/// "tube[0].radius".
+/// "tube[0].radius". Also if tubes are too large for the bin, or two classes have the same radius.
 void validate(const Scene& scene);
+
+/// What is known of a class of tubes; a radius of 0 and an infinite length are not known.
+TubeKind kind_of(const TubeClass& tubes);
 
 /// Whether nothing is known.
 bool is_empty(const Scene& scene);

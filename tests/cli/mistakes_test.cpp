@@ -117,7 +117,7 @@ TEST_F(MistakeInModel, OfMillimetresInTheSceneIsRefused) {
   write("scan.ply", ply_of(view.cloud));
   write_scene_of(view.scene);
   for (const auto& [options, message] : std::vector<std::pair<std::string, std::string>>{
-           {"--radius 12.5", "for 12.5 mm write 0.0125"}, {"--length 480", "length: found 480 m"}}) {
+           {"--radius 12.5", "for 12.5 mm write 0.0125"}, {"--length 480", "--length: found 480 m"}}) {
     const ProgramResult run = model("scan.ply", options);
     EXPECT_EQ(run.status, 2) << options;
     EXPECT_THAT(run.err, HasSubstr(message));

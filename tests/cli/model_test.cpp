@@ -253,9 +253,9 @@ TEST_F(ModelCommand, DoesNotOverwriteItsInput) {
 
 TEST_F(ModelCommand, RefusesWhatItCannotModel) {
   const std::vector<std::pair<ProgramResult, std::string>> refusals = {
-      {model("scan.ply", "--radius 8"), "radius: found 8 m, expected 0.0001 to 1 m; for 8 mm write 0.008"},
-      {model("scan.ply", "--radius 0.2"), "radius: found 0.2 m, expected less than 0.185 m"},
-      {model("scan.ply", "--length 80"), "length: found 80 m, expected at most 6.92 m"},
+      {model("scan.ply", "--radius 8"), "--radius: found 8 m, expected 0.0001 to 1 m; for 8 mm write 0.008"},
+      {model("scan.ply", "--radius 0.2"), "--radius: found 0.2 m, expected less than 0.185 m"},
+      {model("scan.ply", "--length 80"), "--length: found 80 m, expected at most 6.92 m"},
       {model("scan.ply", "--downsample 0.1,0.2"), "--downsample: found 2 ratios, expected one"},
       {model("scan.ply", "--modelled-tubes tubes.ply"),
        "--modelled-tubes: found 'tubes.ply', expected a name that ends in .txt or .json"},
@@ -266,13 +266,15 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
        "--downsample: found '0', expected a ratio above 0 and at most 1"},
       {model("scan.ply", "--radius -1"), "--radius: found '-1', expected a positive number or auto"},
       {model("scan.ply", "--radius 0.01,"), "--radius: found '', expected a positive number or auto"},
-      {model("scan.ply", "--length auto"), "--length: found 'auto', expected a positive number or unknown"},
-      {model("scan.ply", "--radius 0.01,0.01"), "radius: found 0.01 m for two kinds"},
+      {model("scan.ply", "--length auto"),
+       "--length: found 'auto', expected a positive number or unknown"},
+      {model("scan.ply", "--radius 0.01,0.01"), "--radius: found 0.01 m for two kinds"},
       {model("scan.ply", "--radius 0.01,0.02,0.03 --length 0.4,0.5"),
        "--length: found 2 lengths, expected one, or one for each radius: 3"},
       {model("scan.ply", "--tree 1-2:0.3,1-3"),
        "--tree: found '1-3', expected a segment with its length in metres, such as 1-2:0.3"},
       {model("scan.ply", "--tree 1-2:0.3,2-1:0.1"), "--tree: found a segment to node 1, which closes a loop"},
+      {model("scan.ply", "--tree 1-2:80"), "--tree: found 80 m, expected at most 6.92 m"},
       {model("scan.ply", "--tree 1-2:0.3 --tree 1-2:0.4"),
        "--tree: found 2 trees, expected one, or one for each radius: 1"},
       {model("scan.ply", "--radius 0.01,0.02 --method paper"),
@@ -293,6 +295,24 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
   }
   EXPECT_FALSE(std::filesystem::exists(directory_ / "labelled.ply"));
   EXPECT_EQ(run_program("model " + path("scan.ply")).status, 64);
+}
+
+// The cloud shows that the length is wrong, but it is not the cloud that has it.
+TEST_F(ModelCommand, ErrorsNameWhatGaveTheValue) {
+  const std::string plane =
+      "[camera]\npreset = \"paper\"\nframe = \"world\"\n[support]\nshape = \"plane\"\n[[tube]]\n";
+  write("long.toml", plane + "radius = 0.0125\nlength = 500\n");
+  write("open.toml", plane + "length = 0.5\n[[tube]]\nradius = 0.02\n");
+  const auto complaint = [&](const std::string& options) {
+    return model_without_scene("scan.ply", "--scene " + path(options)).err;
+  };
+  EXPECT_THAT(complaint("long.toml"),
+              HasSubstr("tanglebin: " + path("long.toml:8") + ": tube[0].length: found 500 m, expected"));
+  EXPECT_THAT(complaint("long.toml --length 300"), HasSubstr("tanglebin: --length: found 300 m, expected"));
+  EXPECT_THAT(complaint("long.toml --radius 0.3"),
+              HasSubstr("tanglebin: " + path("long.toml:8") + ": tube[0].length: found 500 m"));
+  EXPECT_THAT(complaint("open.toml"),
+              HasSubstr("tanglebin: " + path("open.toml:6") + ": tube[0].radius: found 2 classes of tubes"));
 }
 
 TEST_F(ModelCommand, FindsOutWhatAnOrganizedCloudShows) {

@@ -201,12 +201,13 @@ TEST_P(ModelTubes, RefusesASceneThatIsNone) {
       HasSubstr("length: found 80 m, expected at most 6.92 m, ten times the bin's diagonal; for 80 mm "
                 "write 0.08"));
   scene.kinds[0].segments = {{1, 2, 0.3}, {1, 3, 7}};
-  EXPECT_THAT(complaint({}, scene, 1), HasSubstr("tree: found 7.3 m, expected at most 6.92 m"));
+  EXPECT_THAT(complaint({}, scene, 1), HasSubstr("kinds[0].segment: found 7.3 m, expected at most 6.92 m"));
   scene.kinds[0].segments = {{1, 2, std::numeric_limits<double>::quiet_NaN()}};
   EXPECT_THAT(complaint({}, scene, 1),
               HasSubstr("length: found nan m from node 1 to 2, expected a positive"));
   scene.kinds[0].segments = {{1, 2, 0.3}, {1, 3, 0.1}, {3, 2, 0.1}};
-  EXPECT_THAT(complaint({}, scene, 1), HasSubstr("tree: found a segment to node 2, which closes a loop"));
+  EXPECT_THAT(complaint({}, scene, 1),
+              HasSubstr("kinds[0].segment: found a segment to node 2, which closes a loop"));
   for (const double length_min : {-0.1, 0.6, std::numeric_limits<double>::quiet_NaN()}) {
     scene.kinds[0].segments = {{1, 2, 0.5}};
     scene.kinds[0].length_min = length_min;
@@ -216,8 +217,9 @@ TEST_P(ModelTubes, RefusesASceneThatIsNone) {
   }
   scene = paper_scene();
   scene.kinds.push_back(scene.kinds[0]);
-  EXPECT_THAT(complaint({}, scene, 1),
-              HasSubstr("radius: found 0.0125 m for two kinds, expected a different radius for each kind"));
+  EXPECT_THAT(
+      complaint({}, scene, 1),
+      HasSubstr("kinds[1].radius: found 0.0125 m for two kinds, expected a different radius for each kind"));
   scene.kinds.clear();
   EXPECT_THAT(complaint({}, scene, 1), HasSubstr("kinds: found none"));
   EXPECT_THAT(complaint({}, paper_scene(), 0), HasSubstr("downsample: found 0, expected a ratio above 0"));

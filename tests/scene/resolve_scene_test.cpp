@@ -173,7 +173,8 @@ TEST_F(ToldScene, WhatIsNotKnownOfTheTubesIsEstimatedOrStaysOpen) {
   EXPECT_THAT(resolved.notes, AllOf(Contains(HasSubstr("the radius is estimated")),
                                     Contains(HasSubstr("length is not known"))));
   scene.tubes = {{}, {.radius = LengthRange{0.01, 0.01}}};
-  EXPECT_THAT(complaint([&] { resolve(scene, cloud()); }), HasSubstr("radius: found 2 classes of tubes"));
+  EXPECT_THAT(complaint([&] { resolve(scene, cloud()); }),
+              HasSubstr("tube[0].radius: found 2 classes of tubes"));
 }
 
 TEST_F(ToldScene, RangesOfLengthsHaveTheirEnds) {
@@ -191,7 +192,7 @@ TEST_F(ToldScene, ALengthManyTimesTheSizeOfTheCloudIsRefused) {
     scene.support->shape = shape;
     scene.tubes[0].length = LengthRange{244, 244};
     EXPECT_THAT(complaint([&] { resolve(scene, cloud()); }),
-                AllOf(HasSubstr("length: found 244 m, expected at most "),
+                AllOf(HasSubstr("tube[0].length: found 244 m, expected at most "),
                       HasSubstr("a hundred times the size of the cloud; for 244 mm write 0.244")));
     scene.tubes[0].length = LengthRange{0.2, 20};  // a coiled cable
     EXPECT_EQ(resolve(scene, cloud()).known.kinds.at(0).length(), 20);

@@ -263,6 +263,28 @@ void override_tubes(const SceneOptions& options, std::vector<TubeClass>& classes
   });
 }
 
+// The option that gave a tube's value its place; empty if none did.
+std::string option_for(const std::string& field, const SceneOptions& options) {
+  const std::string key = field.substr(std::min(field.find('.'), field.size()));
+  if (key == ".radius") return options.radius ? "--radius" : "";
+  const bool is_length = key == ".length" || key.starts_with(".segment");
+  if (is_length && options.length) return "--length";
+  return is_length && !options.trees.empty() ? "--tree" : "";
+}
+
+InputPlace place_in_scene(const std::string& scene, const std::string& field) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(scene, ignored)) return {scene, 0, field};
+  const toml::table tree = parse_toml(read_file(scene), scene);
+  return {scene, TomlSource(scene, tree).line_of_field(field), field};
+}
+
+InputPlace place_for(const std::string& field, const SceneOptions& options) {
+  const std::string option = option_for(field, options);
+  if (!option.empty()) return {"", 0, option};
+  return options.scene ? place_in_scene(*options.scene, field) : InputPlace{"", 0, field};
+}
+
 }  // namespace
 
 void add_scene_option(CLI::App& command, std::optional<std::string>& scene) {
@@ -355,8 +377,13 @@ Scene scene_of(const SceneOptions& options, const std::string& input) {
   Scene scene = options.scene ? scene_named(*options.scene, input) : Scene{};
   override_camera(options, input, scene);
   if (options.radius || options.length || !options.trees.empty()) override_tubes(options, scene.tubes);
-  validate(scene);
+  with_places(options, [&] { validate(scene); });
   return scene;
+}
+
+InputError placed(const InputError& error, const SceneOptions& options) {
+  const std::string& field = error.place().field;
+  return field.starts_with("tube[") ? InputError(place_for(field, options), error.problem()) : error;
 }
 
 void print_notes(const std::vector<std::string>& notes) {

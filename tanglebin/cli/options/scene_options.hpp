@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/dataset/dataset.hpp"
 #include "tanglebin/dataset/seen_case.hpp"
 #include "tanglebin/scene/resolve_scene.hpp"
@@ -67,6 +68,20 @@ std::optional<DatasetCase> dataset_case(const std::string& name);
 /// The scene of the options, of which all but --scene override its single values. `input` is the cloud's
 /// file. Throws InputError naming the option.
 Scene scene_of(const SceneOptions& options, const std::string& input);
+
+/// An error about the scene of the options. If it is about a tube's value, it names the option that gave the
+/// value, or else the file of --scene and the value's line.
+InputError placed(const InputError& error, const SceneOptions& options);
+
+/// Calls `call`, which looks at the scene of the options, and places its InputError.
+template <typename Call>
+auto with_places(const SceneOptions& options, Call call) {
+  try {
+    return call();
+  } catch (const InputError& error) {
+    throw placed(error, options);
+  }
+}
 
 /// Prints what was estimated or taken for granted, a line each, on standard error.
 void print_notes(const std::vector<std::string>& notes);

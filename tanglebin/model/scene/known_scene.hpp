@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "tanglebin/geometry/camera.hpp"
@@ -31,10 +32,17 @@ struct KnownScene {
   std::vector<TubeKind> kinds = std::vector<TubeKind>(1);  ///< no two with the same radius
 };
 
-/// Throws InputError naming the invalid field: bin or camera; no kinds; a radius that is not a finite
-/// positive number, is too small or too large for the bin or belongs to two kinds; segments that do not form
-/// a tree or are together longer than ten times the bin's diagonal; a tree of unknown length; a least length
-/// that is negative or above the length.
+/// Throws InputError naming the invalid field, such as "kinds[0].radius": bin or camera; no kinds; a radius
+/// that is not a finite positive number, is too small or too large for the bin or belongs to two kinds;
+/// segments that do not form a tree or are together longer than ten times the bin's diagonal; a tree of
+/// unknown length; a least length that is negative or above the length.
 void validate(const KnownScene& known);
+
+/// Throws InputError naming the field in `list`, such as "kinds[0].radius" of "kinds", if a kind is too large
+/// for the support's bin or has the radius of another. A radius of 0 is not known.
+void validate_together(const std::vector<TubeKind>& kinds, const Support& support, const std::string& list);
+
+/// The name of the field that gives a kind its length: "length", or "segment" of a tree.
+std::string field_of_length(const TubeKind& kind);
 
 }  // namespace tanglebin
