@@ -60,7 +60,7 @@ def test_a_scanner_is_a_preset_with_changes():
     scanner = tanglebin.scanner_with("zivid-one-plus-l", ["scanner.baseline=0.3"])
     assert isinstance(scanner, tanglebin.Scanner) and scanner.sensor.baseline == 0.3
     assert scanner.camera == tanglebin.camera_preset("zivid-one-plus-l")
-    with pytest.raises(tanglebin.InputError, match="settings:1: scanner: unknown key 'basline'"):
+    with pytest.raises(tanglebin.InputError, match="settings: scanner: unknown key 'basline'"):
         tanglebin.scanner_with("paper", ["scanner.basline=0.3"])
 
 

@@ -33,7 +33,7 @@ Objective objective_named(const std::string& name) {
     if (name_of(objective) == name) return objective;
     names.push_back(name_of(objective));
   }
-  throw InputError({"", 0, "objective"}, excerpt(name), fmt::format("{}", fmt::join(names, ", ")));
+  throw InputError({"", 0, "objective"}, excerpt(name), fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
 double value_of(Objective objective, const CaseData& data, const ModelScore& score) {

@@ -66,12 +66,16 @@ CalibrationBudget budget_of(const std::string& text) {
   return {.evaluations = most, .time = std::chrono::duration<double>(double{1} * *number * seconds.at(unit))};
 }
 
+Objective objective_of(const std::string& name) {
+  return with_option("--objective", "objective", [&] { return objective_named(name); });
+}
+
 CalibrationSettings settings_of(const CalibrateArguments& arguments) {
   const std::vector<double> ratios = parse_ratios(arguments.ratio, "--downsample");
   if (ratios.size() != 1)
     throw InputError({"", 0, "--downsample"}, fmt::format("{} ratios", ratios.size()), "one");
-  CalibrationSettings settings{.scoring = {.method = method_named(arguments.method),
-                                           .objective = objective_named(arguments.objective),
+  CalibrationSettings settings{.scoring = {.method = method_of(arguments.method),
+                                           .objective = objective_of(arguments.objective),
                                            .ratio = ratios.front(),
                                            .scene_limit = time_limit_of(arguments.time_limit),
                                            .jobs = arguments.jobs},

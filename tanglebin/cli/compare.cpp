@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tanglebin/cli/commands.hpp"
+#include "tanglebin/cli/options/arguments.hpp"
 #include "tanglebin/cli/options/checks.hpp"
 #include "tanglebin/cli/terminal/exit_status.hpp"
 #include "tanglebin/cli/terminal/print.hpp"
@@ -96,7 +97,9 @@ void print_text(const Comparison& comparison) {
 void compare_results(const CompareArguments& arguments) {
   const std::vector<std::filesystem::path> results(arguments.results.begin(), arguments.results.end());
   bool is_below = false;
-  for (const auto& [baseline, other] : pairs_to_compare(results, arguments.baseline)) {
+  const auto pairs =
+      with_option("--baseline", "baseline", [&] { return pairs_to_compare(results, arguments.baseline); });
+  for (const auto& [baseline, other] : pairs) {
     const Comparison comparison = compare(baseline, other);
     if (arguments.json)
       print_json(comparison);

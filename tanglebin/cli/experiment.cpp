@@ -101,7 +101,7 @@ std::vector<Method> methods_of(const ExperimentArguments& arguments) {
   std::vector<Method> asked;
   for (const std::string& text : arguments.methods) {
     if (text.find('=') != std::string::npos) continue;
-    for (const std::string_view name : split(text, ',')) asked.push_back(method_named(std::string(name)));
+    for (const std::string_view name : split(text, ',')) asked.push_back(method_of(std::string(name)));
   }
   if (arguments.methods.empty() && arguments.labels.empty()) asked.push_back(Method::axis);
   return asked;

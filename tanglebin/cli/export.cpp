@@ -69,7 +69,8 @@ void print_text(const ExportArguments& arguments, const ExportSummary& summary, 
 
 void export_cases(const ExportArguments& arguments) {
   expect_no_input("--out", arguments.out, {arguments.dataset});
-  const ExportFormat format = export_format_named(arguments.format);
+  const ExportFormat format =
+      with_option("--format", "format", [&] { return export_format_named(arguments.format); });
   const std::optional<Shard> shard = shard_of(arguments.shard);
   expect_dataset(arguments.dataset);
   const Dataset dataset = read_dataset(arguments.dataset);

@@ -87,7 +87,7 @@ double ratio_of(const ModelArguments& arguments) {
 
 ModelSettings model_settings(const ModelArguments& arguments, const Profile& profile) {
   ModelSettings settings = settings_of(arguments.model, profile);
-  settings.method = method_named(arguments.method);
+  settings.method = method_of(arguments.method);
   settings.ratio = ratio_of(arguments);
   return settings;
 }
@@ -134,7 +134,7 @@ void model_cloud(const ModelArguments& arguments) {
   expect_outputs(outputs(arguments),
                  inputs_with(arguments.scene.scene, {arguments.cloud, arguments.model.profile,
                                                      arguments.scene.camera.value_or("")}));
-  const Profile profile = profile_of(arguments.model, {method_named(arguments.method)});
+  const Profile profile = profile_of(arguments.model, {method_of(arguments.method)});
   const ModelSettings settings = model_settings(arguments, profile);
   const Scene told = scene_of(arguments.scene, arguments.cloud);
   const Measurement measured =
@@ -144,7 +144,7 @@ void model_cloud(const ModelArguments& arguments) {
   });
   print_notes(resolved.notes);
   print_doubts(profile, resolved.known, arguments.model.profile);
-  validate(resolved.known, settings);
+  with_option("--method", "method", [&] { validate(resolved.known, settings); });
   const Model model =
       with_file(arguments.cloud, [&] { return model_tubes(resolved.cloud, resolved.known, settings); });
   std::vector<std::pair<std::string, std::string>> files = contents(arguments.files, model);

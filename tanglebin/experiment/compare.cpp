@@ -1,5 +1,8 @@
 #include "tanglebin/experiment/compare.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -177,7 +180,8 @@ Pairs pairs_within(const fs::path& results, const std::optional<std::string>& ba
   const std::vector<std::string> methods = experiment_in(results).texts("methods");
   const std::string first = baseline.value_or(methods.empty() ? "" : methods.front());
   if (!has(methods, first))
-    throw InputError({results.string(), 0, "baseline"}, excerpt(first), "one of its methods");
+    throw InputError({"", 0, "baseline"}, excerpt(first),
+                     fmt::format("a method of {}: {}", results.string(), fmt::join(methods, ", ")));
   Pairs pairs;
   for (const std::string& method : methods) {
     if (method != first) pairs.push_back({{results, first}, {results, method}});

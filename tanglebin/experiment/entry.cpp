@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* option = "--method";
+constexpr const char* method_option = "--method";
 
 bool is_blank(char character) {
   return character == ' ' || character == '\t' || character == '\n';
@@ -64,7 +64,8 @@ private:
   }
 
   char take() {
-    if (rest_.empty()) throw InputError({"", 0, option}, "the end of the command", "a quote or a character");
+    if (rest_.empty())
+      throw InputError({"", 0, method_option}, "the end of the command", "a quote or a character");
     const char character = rest_.front();
     rest_.remove_prefix(1);
     return character;
@@ -93,7 +94,7 @@ fs::path program_named(const std::string& name, const fs::path& directory) {
   for (const fs::path& folder : folders) {
     if (is_program(folder / name)) return fs::absolute(folder / name).lexically_normal();
   }
-  throw InputError({"", 0, option}, excerpt(name), "a program that is installed and may be run");
+  throw InputError({"", 0, method_option}, excerpt(name), "a program that is installed and may be run");
 }
 
 std::string sha256_of(const fs::path& file) {
@@ -115,6 +116,10 @@ bool has_placeholder(const Command& command, std::string_view start) {
              return word.find(in_braces) != std::string::npos;
            });
   });
+}
+
+std::string option_of(const Entry& entry) {
+  return std::holds_alternative<LabelsDirectory>(entry.what) ? "--labels" : method_option;
 }
 
 bool may_be_in_name(char character) {
@@ -162,9 +167,10 @@ const std::vector<Placeholder>& placeholders() {
 Command command_of(const std::string& text, const fs::path& directory, const ProcessLimits& limits) {
   Command command{.text = text, .words = Words(text).all(), .limits = limits};
   if (!has_placeholder(command, "cloud"))
-    throw InputError({"", 0, option}, excerpt(text), "{cloud}, the cloud to label, among its words");
+    throw InputError({"", 0, method_option}, excerpt(text), "{cloud}, the cloud to label, among its words");
   if (!has_placeholder(command, "out") && !has_placeholder(command, "tubes"))
-    throw InputError({"", 0, option}, excerpt(text), "{out} or {tubes}, the file to write, among its words");
+    throw InputError({"", 0, method_option}, excerpt(text),
+                     "{out} or {tubes}, the file to write, among its words");
   command.words.front() = program_named(command.words.front(), directory).string();
   for (std::string& word : command.words) {
     const fs::path path = fs::absolute(directory / word).lexically_normal();
@@ -179,6 +185,7 @@ Command command_of(const std::string& text, const fs::path& directory, const Pro
 void expect_names(const std::vector<Entry>& entries) {
   std::set<std::string> names;
   for (const Entry& entry : entries) {
+    const std::string option = option_of(entry);
     if (!is_name(entry.name))
       throw InputError({"", 0, option}, excerpt(entry.name), "a name of letters, digits, - _ and .");
     const bool is_reserved =

@@ -46,7 +46,7 @@ Method method_named(const std::string& name) {
     if (name_of(method) == name) return method;
     names += (names.empty() ? "" : ", ") + name_of(method);
   }
-  throw InputError({"", 0, "method"}, excerpt(name), names);
+  throw InputError({"", 0, "method"}, excerpt(name), "one of " + names);
 }
 
 void expect_available(Method method) {

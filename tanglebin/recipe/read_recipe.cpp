@@ -41,11 +41,11 @@ std::string text_of(const std::vector<std::string>& settings, const std::string&
   return text;
 }
 
-// What `read` makes of the [scanner] of settings from the command line.
+// What `read` makes of the [scanner] in a text.
 template <typename Read>
-Scanner scanner_from(const std::string& text, const std::string& option, const Read& read) {
-  const toml::table tree = parse_toml(text, option);
-  const TomlSource source(option, tree);
+Scanner scanner_of_text(const std::string& text, const std::string& name, const Read& read) {
+  const toml::table tree = parse_toml(text, name);
+  const TomlSource source(name, tree);
   const TomlTable table(source, tree, "");
   table.allow({"scanner"});
   Scanner scanner = read(table.table("scanner"));
@@ -54,6 +54,16 @@ Scanner scanner_from(const std::string& text, const std::string& option, const R
     validate(scanner.sensor);
   });
   return scanner;
+}
+
+// The same of settings from the command line, which are in no file and so on no line.
+template <typename Read>
+Scanner scanner_from(const std::string& text, const std::string& option, const Read& read) {
+  try {
+    return scanner_of_text(text, option, read);
+  } catch (const InputError& error) {
+    throw InputError({option, 0, error.place().field}, error.problem());
+  }
 }
 
 // Recipes

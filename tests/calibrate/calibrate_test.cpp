@@ -229,7 +229,8 @@ TEST(Objectives, AreFoundByTheirNames) {
   for (const Objective objective : objectives()) EXPECT_EQ(objective_named(name_of(objective)), objective);
   EXPECT_THAT(
       complaint([] { objective_named("f1"); }),
-      HasSubstr("found 'f1', expected unmixed_recall, micro_recall, panoptic_quality, complete_tubes"));
+      HasSubstr(
+          "found 'f1', expected one of unmixed_recall, micro_recall, panoptic_quality, complete_tubes"));
 }
 
 }  // namespace

@@ -81,8 +81,9 @@ TEST_F(CalibrateCommand, RefusesWhatItCannotDo) {
       {"--budget 10weeks", "--budget: found '10weeks', expected evaluations, such as 5000, or a time"},
       {"--budget 0", "--budget: found '0'"},
       {"--objective f1",
-       "objective: found 'f1', expected unmixed_recall, micro_recall, panoptic_quality, complete_tubes"},
-      {"--method best", "method: found 'best'"},
+       "--objective: found 'f1', expected one of unmixed_recall, micro_recall, panoptic_quality, "
+       "complete_tubes"},
+      {"--method best", "--method: found 'best'"},
       {"--downsample 0.1,0.3", "--downsample: found 2 ratios, expected one"},
       {"--start " + path("paper.toml"), "paper.toml: method: found paper, expected a profile for axis"}};
   for (const auto& [options, message] : mistakes) {

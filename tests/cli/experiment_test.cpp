@@ -137,7 +137,7 @@ TEST_F(ExperimentCommand, BadInputIsExitStatusTwoAndOneLine) {
   expect_error(experiment("--downsample 1:0.1:0.1"), "a step that leads from the first ratio to the last");
   expect_error(experiment("--downsample 0.3,0.30"), "each ratio once");
   expect_error(experiment("--downsample 0.000000001:1:0.000000001"), "at most a thousand ratios");
-  expect_error(experiment("--method none"), "none");
+  expect_error(experiment("--method none"), "tanglebin: --method: found 'none', expected one of paper, axis");
   expect_error(
       experiment("--set C"),
       "dataset: no case matches --set, --tubes and --cases; there are set A with 1-2 tubes and cases 1-2");

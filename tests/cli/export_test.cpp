@@ -52,7 +52,9 @@ TEST_F(Export, ShardsSayWhetherOthersAreToCome) {
 TEST_F(Export, RejectsAFormatThatItDoesNotHaveAndAnotherExport) {
   const ProgramResult unknown = run("--format yolo");
   EXPECT_EQ(unknown.status, 2);
-  EXPECT_THAT(unknown.err, HasSubstr("found 'yolo', expected one of coco, numpy, webdataset, hdf5, bop"));
+  EXPECT_THAT(
+      unknown.err,
+      HasSubstr("tanglebin: --format: found 'yolo', expected one of coco, numpy, webdataset, hdf5, bop"));
   EXPECT_EQ(run("--format hdf5 --cases 1").status, 0);
   const ProgramResult other = run("--format hdf5 --cases 1-2");
   EXPECT_EQ(other.status, 2);

@@ -261,7 +261,7 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
        "--modelled-tubes: found 'tubes.ply', expected a name that ends in .txt or .json"},
       {run_program("model " + path("scan.ply") + " --out labelled.xyz"),
        "--out: found 'labelled.xyz', expected a name that ends in .ply or .pcd"},
-      {model("scan.ply", "--method magic"), "method: found 'magic', expected paper, axis"},
+      {model("scan.ply", "--method magic"), "--method: found 'magic', expected one of paper, axis"},
       {model("scan.ply", "--downsample 0"),
        "--downsample: found '0', expected a ratio above 0 and at most 1"},
       {model("scan.ply", "--radius -1"), "--radius: found '-1', expected a positive number or auto"},
@@ -278,7 +278,7 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
       {model("scan.ply", "--tree 1-2:0.3 --tree 1-2:0.4"),
        "--tree: found 2 trees, expected one, or one for each radius: 1"},
       {model("scan.ply", "--radius 0.01,0.02 --method paper"),
-       "method: the paper's method handles a single radius"},
+       "--method: the paper's method handles a single radius"},
       {model_without_scene("scan.ply", ""),
        "scan.ply: camera: found neither the camera's intrinsics nor an organized cloud, which shows them, "
        "expected "

@@ -131,7 +131,7 @@ TEST_F(ScanCommand, NamesTheSettingThatIsWrong) {
   };
   EXPECT_THAT(
       said("--parameter scanner.sigma=0.1 --parameter scanner.baseline=0"),
-      HasSubstr("--parameter:2: scanner.baseline: found 0, expected a distance in metres other than 0"));
+      HasSubstr("--parameter: scanner.baseline: found 0, expected a distance in metres other than 0"));
   EXPECT_THAT(said("--parameter scanner.sigma"),
               HasSubstr("--parameter: found 'scanner.sigma', expected NAME=VALUE, such as scanner.base"));
   EXPECT_THAT(said("--scanner zivid"),

@@ -217,7 +217,8 @@ TEST(PairsToCompare, OfOtherDatasetsOrWithNothingInCommonAreErrors) {
               }),
               HasSubstr("recipe_sha256: results of another dataset"));
   EXPECT_THAT(complaint([&] { pairs_to_compare({one.path()}, {}); }), HasSubstr("no two methods to compare"));
-  EXPECT_THAT(complaint([&] { pairs_to_compare({one.path()}, "mine"); }), HasSubstr("found 'mine'"));
+  EXPECT_THAT(complaint([&] { pairs_to_compare({one.path()}, "mine"); }),
+              HasSubstr("baseline: found 'mine', expected a method of " + one.path().string() + ": axis"));
   EXPECT_THAT(complaint([&] { pairs_to_compare({"/nowhere"}, {}); }), HasSubstr("/nowhere/experiment.json"));
   EXPECT_THAT(complaint([&] { compare(one.of("axis"), one.of("axis")); }), HasSubstr("no scene in common"));
 }

@@ -75,7 +75,7 @@ TEST(Entries, HaveNamesThatCanBePartsOfFileNames) {
   EXPECT_EQ(complaint_about({"mine", "mine-2.0_b"}), "none");
   for (const char* name : {"", "..", "a/b", "a b", "-a", "é"})
     EXPECT_THAT(complaint_about({name}), HasSubstr("a name of letters, digits")) << name;
-  EXPECT_THAT(complaint_about({"mine", "mine"}), HasSubstr("found mine twice"));
+  EXPECT_THAT(complaint_about({"mine", "mine"}), HasSubstr("--labels: found mine twice"));
   EXPECT_THAT(complaint_about({"paper"}), HasSubstr("another name than that of a built-in method"));
 }
 

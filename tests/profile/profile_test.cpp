@@ -92,7 +92,7 @@ TEST(Profile, SaysWhatIsWrongWithWhatItWasMadeFor) {
     return complaint_about(text);
   };
   EXPECT_THAT(with("method = \"axis\"", "method = \"best\""),
-              HasSubstr("found 'best', expected paper, axis"));
+              HasSubstr("found 'best', expected one of paper, axis"));
   EXPECT_THAT(with("image_width = 1920", "image_width = 0"),
               HasSubstr("made_for.image_width: found 0, expected a number above 0"));
   EXPECT_THAT(with("scanner = ", "scaner = "),

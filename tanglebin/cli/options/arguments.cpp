@@ -83,6 +83,10 @@ void expect_dataset(const std::string& directory) {
   throw InputError({directory, 0, ""}, found, "the directory of a dataset from `tanglebin generate`");
 }
 
+Method method_of(const std::string& name) {
+  return with_option("--method", "method", [&] { return method_named(name); });
+}
+
 std::vector<Range> parse_numbers(std::string_view text, const std::string& option) {
   std::vector<Range> ranges;
   for (const std::string_view part : split(text, ',')) {

@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "tanglebin/base/error.hpp"
 #include "tanglebin/files/safe_file.hpp"
+#include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/model/scene/segment_tree.hpp"
 #include "tanglebin/runs/shard.hpp"
 
@@ -33,6 +35,21 @@ void write_outputs(const std::vector<std::pair<std::string, std::string>>& outpu
 
 /// Throws InputError unless the directory has a dataset, that is a recipe.toml.
 void expect_dataset(const std::string& directory);
+
+/// Calls `call`, which knows an option's value by the name of a field: an InputError about the field names
+/// the option.
+template <typename Call>
+auto with_option(const std::string& option, const std::string& field, Call call) {
+  try {
+    return call();
+  } catch (const InputError& error) {
+    if (error.place().field != field) throw;
+    throw InputError({"", 0, option}, error.problem());
+  }
+}
+
+/// The method of --method. Throws InputError naming the option for any other name.
+Method method_of(const std::string& name);
 
 /// A range of whole numbers, both ends included.
 struct Range {
