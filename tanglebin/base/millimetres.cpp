@@ -4,8 +4,9 @@
 
 namespace tanglebin {
 
-std::string hint_of_millimetres(double metres) {
-  return metres < 1 ? "" : fmt::format("; for {0:.6g} mm write {1:.6g}", metres, metres / 1000);
+std::string hint_of_millimetres(double metres, double most) {
+  const double meant = metres / 1000;
+  return metres < 1 || meant > most ? "" : fmt::format("; for {:.6g} mm write {:.6g}", metres, meant);
 }
 
 }  // namespace tanglebin

@@ -23,7 +23,7 @@ void validate_size(const char* field, double metres, double least) {
   validate_positive(field, metres);
   if (metres < least || metres > most)
     throw InputError({.file = "", .line = 0, .field = field}, fmt::format("{} m", metres),
-                     fmt::format("{} to {} m{}", least, most, hint_of_millimetres(metres)));
+                     fmt::format("{} to {} m{}", least, most, hint_of_millimetres(metres, most)));
 }
 
 }  // namespace

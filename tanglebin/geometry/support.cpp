@@ -68,7 +68,7 @@ void validate(const Support& support) {
   constexpr double most = 0.1;
   if (!(support.margin >= 0 && support.margin <= most))
     throw InputError({.file = "", .line = 0, .field = "support.margin"}, fmt::format("{} m", support.margin),
-                     fmt::format("0 to {} m{}", most, hint_of_millimetres(support.margin)));
+                     fmt::format("0 to {} m{}", most, hint_of_millimetres(support.margin, most)));
 }
 
 }  // namespace tanglebin

@@ -48,14 +48,14 @@ void require_order(const Sensor& sensor, double Sensor::*least, double Sensor::*
 
 void validate_noise(const Sensor& sensor) {
   require_within(sensor.sigma, 0, largest_error, "sigma",
-                 fmt::format("at most {} metre of noise, or 0 for none", largest_error));
+                 fmt::format("0 to {} m; 0 is no noise", largest_error));
   if (!(sensor.dropout >= 0 && sensor.dropout < 1)) {
     fail("dropout", sensor.dropout, "a fraction of the pixels, from 0 to below 1");
   }
   require_within(sensor.disparity_sigma, 0, largest_disparity_sigma, "disparity_sigma",
-                 fmt::format("at most {} pixels of noise, or 0 for none", largest_disparity_sigma));
+                 fmt::format("0 to {} pixels; 0 is no noise", largest_disparity_sigma));
   require_within(sensor.trueness, 0, largest_error, "trueness",
-                 fmt::format("at most {} metre of error, or 0 for none", largest_error));
+                 fmt::format("0 to {} m; 0 is no error", largest_error));
   if (!(sensor.column_correlation >= 0 && sensor.column_correlation < 1)) {
     fail("column_correlation", sensor.column_correlation, "a correlation from 0 to below 1");
   }

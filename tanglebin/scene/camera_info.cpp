@@ -24,7 +24,9 @@ public:
   using Names = std::initializer_list<const char*>;
 
   YamlMap(std::string file, const YAML::Node& node) : file_(std::move(file)), node_(node) {
-    if (!node_.IsMap()) throw InputError({file_, line_of(node_), ""}, "no mapping of names to values");
+    if (!node_.IsMap())
+      throw InputError({file_, line_of(node_), ""}, node_.IsSequence() ? "a list" : "a single value",
+                       "an object: names with values");
   }
 
   bool has(Names names) const { return find(names).has_value(); }

@@ -164,7 +164,7 @@ void expect_thin_wall(const TomlTable& table, double wall) {
   constexpr double thickest = 0.5;  // m
   if (wall > thickest)
     table.fail("wall", fmt::format("{} m", wall),
-               fmt::format("at most {} m{}", thickest, hint_of_millimetres(wall)));
+               fmt::format("at most {} m{}", thickest, hint_of_millimetres(wall, thickest)));
 }
 
 Bin read_bin(const TomlTable& table) {

@@ -275,7 +275,7 @@ void expect_length_of_size(const TubeKind& kind, double size, std::size_t index)
   throw InputError(
       {"", 0, fmt::format("tube[{}].{}", index, field_of_length(kind))}, fmt::format("{} m", kind.length()),
       fmt::format("at most {:.3g} m, a hundred times the size of the cloud{}", too_many_times * size,
-                  hint_of_millimetres(kind.length())));
+                  hint_of_millimetres(kind.length(), too_many_times * size)));
 }
 
 void expect_lengths_of_size(const ResolvedScene& resolved) {

@@ -34,7 +34,7 @@ void validate_range(const LengthRange& range, double least, double most, const s
   expect(range.min >= least && range.max <= most && range.max > 0, field,
          range.min == range.max ? fmt::format("{} m", range.min)
                                 : fmt::format("{} to {} m", range.min, range.max),
-         fmt::format("{} to {} m{}", least, most, hint_of_millimetres(range.max)));
+         fmt::format("{} to {} m{}", least, most, hint_of_millimetres(range.max, most)));
 }
 
 void validate(const SceneCamera& camera) {

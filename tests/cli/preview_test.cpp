@@ -129,8 +129,9 @@ TEST_F(Preview, SaysWhatIsWrongWithItsInputAndExitsWith2) {
   EXPECT_THAT(message("- < story.txt"), StartsWith("tanglebin: standard input: found 'O' at the start"));
   EXPECT_THAT(preview("tube.txt --out p.jpg").err,
               HasSubstr("--out: found 'p.jpg', expected a name that ends in .png"));
-  EXPECT_THAT(message("tube.txt --scene round.toml"),
-              HasSubstr("--scene: found 'round.toml', nothing, expected a scene file, a recipe, a dataset"));
+  EXPECT_THAT(
+      message("tube.txt --scene round.toml"),
+      HasSubstr("--scene: found nothing called 'round.toml', expected a scene file, a recipe, a dataset"));
   EXPECT_THAT(message("tube.txt --elevation-deg 100"),
               HasSubstr("elevation: found 100°, expected -90° to 90°"));
 }

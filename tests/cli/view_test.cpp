@@ -127,7 +127,7 @@ TEST_F(ViewCommand, SaysWhatIsWrongWithItsInputAndExitsWith2) {
     return made.err;
   };
   EXPECT_THAT(message("dataset/A2/7 --out a.html"),
-              HasSubstr("found 'A2/7', expected a case of the dataset, such as A10/1"));
+              HasSubstr("found 'A2/7', expected a case of the dataset, such as A2/1"));
   EXPECT_THAT(message("absent.ply --out a.html"), HasSubstr("absent.ply: cannot be opened"));
   EXPECT_THAT(message("dataset/A2/1 --out a.png"), HasSubstr("--out: found 'a.png'"));
   EXPECT_THAT(message("dataset/A2/tube_configurations/1.txt --labelled labelled.ply --out a.html"),

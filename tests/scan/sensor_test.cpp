@@ -48,7 +48,7 @@ TEST(Sensor, PresetsAreValidAndOnlyThePapersIsIdeal) {
 
 TEST(Sensor, NamesTheKeyThatMakesNoSenseAndTheRemedy) {
   EXPECT_THAT(complaint({.sigma = -1}),
-              StartsWith("scanner.sigma: found -1, expected at most 1 metre of noise, or 0 for none"));
+              StartsWith("scanner.sigma: found -1, expected 0 to 1 m; 0 is no noise"));
   EXPECT_THAT(complaint({.dropout = 1}), StartsWith("scanner.dropout: found 1, expected a fraction"));
   EXPECT_THAT(complaint({.baseline = 0}),
               StartsWith("scanner.baseline: found 0, expected a distance in metres other than 0"));
@@ -97,9 +97,9 @@ TEST(Sensor, NamesTheEndOfARangeThatWasSet) {
 
 TEST(Sensor, RefusesWhatNoScannerHas) {
   EXPECT_THAT(complaint({.sigma = 1e300}),
-              StartsWith("scanner.sigma: found 1e+300, expected at most 1 metre"));
-  EXPECT_THAT(complaint({.disparity_sigma = 101}), HasSubstr("at most 100 pixels"));
-  EXPECT_THAT(complaint({.trueness = 1.1}), HasSubstr("at most 1 metre"));
+              StartsWith("scanner.sigma: found 1e+300, expected 0 to 1 m; 0 is no noise"));
+  EXPECT_THAT(complaint({.disparity_sigma = 101}), HasSubstr("expected 0 to 100 pixels; 0 is no noise"));
+  EXPECT_THAT(complaint({.trueness = 1.1}), HasSubstr("expected 0 to 1 m; 0 is no error"));
   EXPECT_THAT(complaint({.trueness_length = 0.5}), HasSubstr("at least 1 pixel"));
 }
 

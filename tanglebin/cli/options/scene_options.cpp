@@ -51,12 +51,17 @@ std::optional<CasePath> case_of_file(const fs::path& dataset, const std::string&
                   has_scanner ? parts[1].string() : ""};
 }
 
+// What names a case of a dataset, for messages; `prefix` is before its name.
+std::string a_case(const std::vector<CaseId>& there, const fs::path& prefix = "") {
+  if (there.empty()) return "a case, but the dataset has none";
+  return "a case of the dataset, such as " + (prefix / name_of(there.front())).string();
+}
+
 CaseId case_named(const Dataset& dataset, const std::string& name) {
   const std::vector<CaseId> there = cases(dataset);
   const auto found = std::ranges::find(there, name, [](const CaseId& id) { return name_of(id); });
   if (found == there.end())
-    throw InputError({dataset.directory.string(), 0, ""}, excerpt(name),
-                     "a case of the dataset, such as A10/1");
+    throw InputError({dataset.directory.string(), 0, ""}, excerpt(name), a_case(there));
   return *found;
 }
 
@@ -125,7 +130,7 @@ std::optional<CasePath> case_meant(const fs::path& scene, const std::string& inp
   if (!named)
     throw InputError({scene.string(), 0, ""},
                      fmt::format("a dataset, and {}, which is not in it", excerpt(input)),
-                     fmt::format("the case that it is of, such as {}", (scene / "A10" / "1").string()));
+                     a_case(cases(read_dataset(scene)), scene));
   return named;
 }
 
@@ -159,7 +164,7 @@ Scene scene_of_file(const std::string& file, const std::string& input) {
   std::error_code ignored;
   if (!fs::exists(path, ignored) || fs::is_directory(path, ignored))
     throw InputError({"", 0, "--scene"},
-                     excerpt(file) + (fs::exists(path, ignored) ? ", a directory" : ", nothing"),
+                     (fs::exists(path, ignored) ? "the directory " : "nothing called ") + excerpt(file),
                      "a scene file, a recipe, a dataset, or one of its cases, such as DATASET/A10/1");
   return is_recipe(path) ? scene_of_recipe(path) : read_scene(path, number_of(input));
 }
@@ -216,7 +221,7 @@ std::vector<std::optional<LengthRange>> ranges(const std::string& text, std::str
     try {
       return parse_lengths(text, option);
     } catch (const InputError& error) {
-      throw InputError(error.place(), fmt::format("{} or {}", error.problem(), unknown));
+      throw InputError(error.place(), fmt::format("{}, or {} alone", error.problem(), unknown));
     }
   };
   std::vector<std::optional<LengthRange>> result;

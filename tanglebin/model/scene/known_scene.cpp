@@ -27,7 +27,7 @@ void validate_radius(double radius, const std::string& field) {
   constexpr double thickest = 1;
   if (radius < thinnest || radius > thickest)
     throw InputError({"", 0, field}, fmt::format("{} m", radius),
-                     fmt::format("{} to {} m{}", thinnest, thickest, hint_of_millimetres(radius)));
+                     fmt::format("{} to {} m{}", thinnest, thickest, hint_of_millimetres(radius, thickest)));
 }
 
 // Larger numbers are not in metres. A tube may be longer than the bin, but not many times.
@@ -36,13 +36,13 @@ void validate_fit(const TubeKind& kind, const Bin& bin, const std::string& where
   if (kind.radius >= widest)
     throw InputError({"", 0, where + ".radius"}, fmt::format("{} m", kind.radius),
                      fmt::format("less than {:.4g} m, half the bin's narrower side{}", widest,
-                                 hint_of_millimetres(kind.radius)));
+                                 hint_of_millimetres(kind.radius, widest)));
   constexpr double too_many_times = 10;
   const double longest = too_many_times * Eigen::Vector3d(bin.length, bin.width, bin.height).norm();
   if (kind.length_is_known() && kind.length() > longest)
     throw InputError({"", 0, where + '.' + field_of_length(kind)}, fmt::format("{} m", kind.length()),
                      fmt::format("at most {:.3g} m, ten times the bin's diagonal{}", longest,
-                                 hint_of_millimetres(kind.length())));
+                                 hint_of_millimetres(kind.length(), longest)));
 }
 
 void validate_length_min(const TubeKind& kind, const std::string& where) {

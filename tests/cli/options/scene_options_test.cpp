@@ -117,7 +117,7 @@ TEST_F(CaseOfTwoScanners, IsScannedAgainByTheScannerThatSawIt) {
   const std::string aslant = " --scene dataset/A2/aslant/1";
   EXPECT_TRUE(cloud_of(aslant) == bytes_of("dataset/A2/aslant/plys/1.ply"));
   EXPECT_TRUE(cloud_of(aslant + "/") == bytes_of("dataset/A2/aslant/plys/1.ply"));
-  EXPECT_THAT(complaint(scan + " --scene nowhere"), HasSubstr("--scene: found 'nowhere', nothing"));
+  EXPECT_THAT(complaint(scan + " --scene nowhere"), HasSubstr("--scene: found nothing called 'nowhere'"));
   const std::string ideal = cloud_of(aslant + " --parameter scanner.sigma=0");
   EXPECT_FALSE(ideal == bytes_of("dataset/A2/aslant/plys/1.ply"));
   EXPECT_TRUE(ideal == cloud_of(aslant + " --scanner paper")) << "the camera is the scene's";
