@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/cli/options/arguments.hpp"
 #include "tanglebin/cli/terminal/print.hpp"
-#include "tanglebin/dataset/dry_run.hpp"
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/pictures/picture_of_scan.hpp"
 #include "tanglebin/report/text.hpp"
@@ -78,7 +78,8 @@ void write_picture(const DryRun& run, const std::string& file) {
 }  // namespace
 
 void print_dry_run(const Recipe& recipe, const std::vector<CaseId>& wanted, const DryRunReport& report) {
-  const DryRun run = dry_run(recipe, wanted);
+  const DryRun run = dry_run(
+      recipe, wanted, std::min<std::chrono::steady_clock::duration>(report.case_limit, default_patience));
   if (report.picture == standard_stream) {
     for (const std::string& warning : run.warnings) print_error("tanglebin: warning: {}\n", warning);
   } else if (report.json) {

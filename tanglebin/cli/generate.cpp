@@ -56,7 +56,9 @@ void generate(const GenerateArguments& arguments) {
   if (recipe.random.empty()) with_file(arguments.recipe, [&] { expect_bin_in_view(recipe); });
   if (arguments.dry_run) {
     if (!arguments.out.empty()) expect_fillable(arguments.out, recipe);
-    print_dry_run(recipe, wanted, {arguments.many.jobs, arguments.json, arguments.picture});
+    print_dry_run(
+        recipe, wanted,
+        {arguments.many.jobs, time_limit_of(arguments.case_limit), arguments.json, arguments.picture});
     return;
   }
   const Clock::time_point start = Clock::now();

@@ -15,6 +15,8 @@
 namespace tanglebin {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 /// What a case took.
 struct Effort {
   double seconds = 0;
@@ -67,7 +69,7 @@ Recipe of_case_alone(const Recipe& resolved, const CaseId& id) {
 /// Makes cases and notes what they take and what is wrong with them.
 class Trial {
 public:
-  explicit Trial(const Recipe& recipe) : recipe_(recipe) {}
+  Trial(const Recipe& recipe, Clock::duration patience) : recipe_(recipe), patience_(patience) {}
 
   void estimate(const std::vector<CaseId>& of_set) {
     Efforts efforts;
@@ -94,12 +96,24 @@ private:
       warn(fmt::format("{}: the scanner{}{} sees no tube", name_of(id), scanner.empty() ? "" : " ", scanner));
   }
 
+  SimulatedScene simulate_in_time(const Recipe& resolved, const CaseId& id) const {
+    const Clock::time_point start = Clock::now();
+    const auto expect_time = [&](double /*simulated*/) {
+      if (Clock::now() - start > patience_)
+        throw InputError({"", 0, name_of(id)},
+                         fmt::format("no valid scene of {} tubes after {:.3g} s, when a dry run gives up",
+                                     id.tubes, std::chrono::duration<double>(patience_).count()));
+    };
+    return simulate(
+        resolved, id, [] {}, expect_time);
+  }
+
   // Nothing of a case that has no valid recipe or scene, which fails in a dataset too.
   std::optional<MadeScene> make(const CaseId& id) {
     try {
       Recipe resolved = resolve(recipe_, id, draw(recipe_, id));
       for (const std::string& doubt : doubts(of_case_alone(resolved, id))) warn(doubt);
-      SimulatedScene scene = simulate(resolved, id);
+      SimulatedScene scene = simulate_in_time(resolved, id);
       return MadeScene{std::move(resolved), std::move(scene)};
     } catch (const InputError& error) {
       warn(fmt::format("{}: {}", name_of(id), error.problem()));
@@ -115,25 +129,26 @@ private:
   }
 
   Effort effort_of(const CaseId& id) {
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     Effort effort;
     if (std::optional<MadeScene> made = make(id)) {
       effort.bytes = size_of(case_files(made->recipe, id, made->scene));
       look(*made, id);
       if (!result_.first) result_.first = std::move(made);
     }
-    effort.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    effort.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return effort;
   }
 
   const Recipe& recipe_;
+  Clock::duration patience_;
   DryRun result_;
 };
 
 }  // namespace
 
-DryRun dry_run(const Recipe& recipe, const std::vector<CaseId>& wanted) {
-  Trial trial(recipe);
+DryRun dry_run(const Recipe& recipe, const std::vector<CaseId>& wanted, Clock::duration patience) {
+  Trial trial(recipe, patience);
   for (const SetRecipe& set : recipe.sets) {
     std::vector<CaseId> of_set;
     std::ranges::copy_if(wanted, std::back_inserter(of_set),

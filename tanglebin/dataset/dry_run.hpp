@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -31,10 +32,15 @@ struct DryRun {
   std::optional<MadeScene> first;     ///< the first of the cases, if it has a valid scene
 };
 
+/// How long dry_run() tries to make one case. The paper's take less than a second.
+inline constexpr std::chrono::seconds default_patience{60};
+
 /// Makes the first of the wanted cases (at least one) with the fewest, a middle and the largest number of
 /// tubes of each set, and writes nothing. What the other cases take is interpolated between these. Warnings
-/// are the doubts() about their recipes, cases without a valid scene, and scanners that see no tube. Throws
-/// InputError if a file of a case cannot be made, as generate_dataset() does.
-DryRun dry_run(const Recipe& recipe, const std::vector<CaseId>& wanted);
+/// are the doubts() about their recipes, cases without a valid scene, or without one after `patience`, and
+/// scanners that see no tube. Throws InputError if a file of a case cannot be made, as generate_dataset()
+/// does.
+DryRun dry_run(const Recipe& recipe, const std::vector<CaseId>& wanted,
+               std::chrono::steady_clock::duration patience = default_patience);
 
 }  // namespace tanglebin

@@ -33,6 +33,8 @@ void expect_angle(double radians, const std::string& field) {
 void validate_mass(const TubeSpec& spec, const std::string& where) {
   if (spec.density == 0) {
     expect_positive(spec.mass, where + ".mass");
+    expect(spec.mass >= lightest_tube && spec.mass <= heaviest_tube, where + ".mass",
+           fmt::format("{} kg", spec.mass), fmt::format("{} to {} kg", lightest_tube, heaviest_tube));
     return;
   }
   expect_positive(spec.density, where + ".density");

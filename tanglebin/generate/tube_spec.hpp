@@ -56,9 +56,10 @@ double mass_of(const Tube& tube, const TubeSpec& spec);
 /// Throws InputError if no tube can be made of a spec. Names the field (`where`.radius, or
 /// `where`.segment[1].length for the second of several segments) and the reason: cylinders_max ·
 /// cylinder_length_min > length, min > max, an angle outside [0, π], a size or mass that is not positive,
-/// both a mass and a density, more than 1000 cylinders, a segment that starts nowhere or closes a loop, named
-/// nodes that are not 1, 2, …, segments + 1; a bar whose bend is narrower than its radius, or that passes
-/// through itself; flat ends with less than a radius of straight tube before them.
+/// a mass with which the physics engine does not work, both a mass and a density, more than 1000 cylinders, a
+/// segment that starts nowhere or closes a loop, named nodes that are not 1, 2, …, segments + 1; a bar whose
+/// bend is narrower than its radius, or that passes through itself; flat ends with less than a radius of
+/// straight tube before them.
 void validate(const TubeSpec& spec, const std::string& where = "tube");
 
 }  // namespace tanglebin

@@ -87,6 +87,18 @@ void doubt_room(const Recipe& recipe, const SetRecipe& set, Doubts& found) {
                     set.name, tubes, 100 * filled, 100 * most_filled));
 }
 
+// A mass in grams, or a radius that is too small.
+void doubt_mass(const SetRecipe& set, Doubts& found) {
+  constexpr double densest = 22600;  // kg/m³, osmium
+  for (const TubeSpec& spec : tubes_of(set)) {
+    const double density = spec.density > 0 ? spec.density : spec.mass / volume(spec);
+    if (density <= densest) continue;
+    found.push_back(fmt::format("set {}: a tube has {:.3g} kg/m³, more than the densest metal, {:.3g} kg/m³",
+                                set.name, density, densest));
+    return;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> doubts(const Recipe& recipe) {
@@ -95,7 +107,10 @@ std::vector<std::string> doubts(const Recipe& recipe) {
     const std::string where = scanner.name.empty() ? "scanner" : fmt::format("scanner {}", scanner.name);
     doubt_camera(recipe, scanner.camera, where, found);
   }
-  for (const SetRecipe& set : recipe.sets) doubt_room(recipe, set, found);
+  for (const SetRecipe& set : recipe.sets) {
+    doubt_room(recipe, set, found);
+    doubt_mass(set, found);
+  }
   return found;
 }
 

@@ -30,7 +30,7 @@ void require_within(const Tube& tube, const char* field, double value, double le
 // ODE aborts the process if a mass or an inertia is not positive, or not after rounding.
 void require_physical(const Tube& tube) {
   validate(tube);
-  require_within(tube, "mass", tube.mass, 1e-9, 1e9, "kg");
+  require_within(tube, "mass", tube.mass, lightest_tube, heaviest_tube, "kg");
   require_within(tube, "radius", tube.radius, 1e-5, 100, "m");
   require_within(tube, "length", total_length(tube), 1e-6, 100, "m");
   for (const Node& node : tube.nodes) {

@@ -89,6 +89,12 @@ TEST_F(Generate, ADryRunWritesNothingAndSaysWhatToExpect) {
   EXPECT_EQ(files_below(directory_.path()).size(), 1U) << "only the recipe";
 }
 
+TEST_F(Generate, ADryRunTriesACaseNoLongerThanARunWould) {
+  const auto result = run_program("generate " + recipe_.string() + " --dry-run --case-limit 0.001");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("tubes after 0.001 s, when a dry run gives up"));
+}
+
 TEST_F(Generate, ADryRunShowsTheFirstCase) {
   const auto result =
       run_program("generate " + recipe_.string() + " --dry-run --json --set B --picture " + out("b.png"));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <sstream>
 
 #include "tanglebin/dataset/generate_dataset.hpp"
@@ -67,6 +68,14 @@ TEST(DryRun, WarnsOfCasesThatCannotBeMade) {
   recipe.attempts = 2;
   const DryRun run = dry_run(recipe, cases(recipe));
   EXPECT_THAT(run.warnings, Contains(HasSubstr("A2/1: no valid scene of 2 tubes in 2 attempts")));
+  EXPECT_FALSE(run.first);
+}
+
+TEST(DryRun, GivesUpACaseThatTakesTooLong) {
+  const Recipe recipe = with_tubes({2});
+  const DryRun run = dry_run(recipe, cases(recipe), std::chrono::microseconds(1));
+  EXPECT_THAT(run.warnings,
+              Contains("A2/1: no valid scene of 2 tubes after 1e-06 s, when a dry run gives up"));
   EXPECT_FALSE(run.first);
 }
 

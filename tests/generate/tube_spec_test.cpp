@@ -73,6 +73,8 @@ TEST(TubeSpec, NamesASizeThatIsNotPositive) {
             "tube.mass: found -0.5, expected a positive number");
   EXPECT_EQ(complaint_after([](TubeSpec& s) { s.mass = std::numeric_limits<double>::quiet_NaN(); }),
             "tube.mass: found nan, expected a positive number");
+  EXPECT_EQ(complaint_after([](TubeSpec& s) { s.mass = 1e12; }),
+            "tube.mass: found 1000000000000 kg, expected 1e-09 to 1000000000 kg");
   EXPECT_EQ(
       complaint_after([](TubeSpec& s) { s.segments[0].length = std::numeric_limits<double>::infinity(); }),
       "tube.length: found inf, expected a positive number");

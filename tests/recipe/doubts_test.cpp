@@ -57,6 +57,16 @@ TEST(Doubts, AboutMoreTubesThanTheBinHolds) {
               ElementsAre("set A: 20 tubes have 45 % of the bin's volume; a heap fills up to about 33 %"));
 }
 
+TEST(Doubts, AboutTubesHeavierThanMetal) {
+  const std::string heavy =
+      "[[set]]\nname = \"grams\"\ntubes = [2]\n[set.tube]\nradius = 0.0125\nmass = 500\nlength = "
+      "0.5\nbend_max_deg "
+      "= 30\n";
+  EXPECT_THAT(
+      doubts_about(heavy),
+      ElementsAre("set grams: a tube has 2.04e+06 kg/m³, more than the densest metal, 2.26e+04 kg/m³"));
+}
+
 TEST(Doubts, NotAboutManyTubesOnAPlate) {
   EXPECT_THAT(doubts_about("[bin]\nwidth = 0.2\nheight = 0.001\n"), IsEmpty());
 }
