@@ -151,7 +151,7 @@ void print_doubts_of_profiles(const ExperimentSettings& settings, const Dataset&
   }
 }
 
-/// What the results say, and when.
+/// What the results of the wanted cases say, and when.
 struct Findings {
   std::vector<MeanMicroRecall> means;
   FailureCounts failures;
@@ -258,7 +258,7 @@ void experiment(const ExperimentArguments& arguments) {
     write_scenes(arguments.out, dataset, settings, static_cast<std::size_t>(arguments.scenes), model_again);
     print_left_out(model_again);
   }
-  const ResultsSummary results = summary_of(arguments.out, settings.ratios);
+  const ResultsSummary results = summary_of(arguments.out, settings.ratios, wanted);
   const Findings findings{results.means(), results.failures(), results.ratio(), seconds_since(start)};
   if (arguments.json || arguments.progress == ProgressStyle::json)
     print_json(arguments, summary, findings);

@@ -69,4 +69,14 @@ ResultsSummary summary_of(const std::filesystem::path& directory, const std::vec
   return summary;
 }
 
+ResultsSummary summary_of(const std::filesystem::path& directory, const std::vector<double>& ratios,
+                          const std::vector<CaseId>& cases) {
+  const std::set<CaseId> wanted(cases.begin(), cases.end());
+  ResultsSummary summary(ratio_to_show(ratios));
+  for_each_result(directory, [&](const RunResult& result, const JsonRecord&) {
+    if (wanted.contains(result.run.scene)) summary.add(result);
+  });
+  return summary;
+}
+
 }  // namespace tanglebin

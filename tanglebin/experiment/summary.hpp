@@ -81,4 +81,8 @@ private:
 /// The summary of a results directory at the ratio to show of these. Throws as for_each_result() does.
 ResultsSummary summary_of(const std::filesystem::path& directory, const std::vector<double>& ratios);
 
+/// The same of these cases alone.
+ResultsSummary summary_of(const std::filesystem::path& directory, const std::vector<double>& ratios,
+                          const std::vector<CaseId>& cases);
+
 }  // namespace tanglebin

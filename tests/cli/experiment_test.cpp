@@ -66,6 +66,13 @@ TEST_F(ExperimentCommand, ModelsOnlyTheCasesAskedForAndGoesOnLater) {
   EXPECT_EQ(second.at("micro_recall").at(1).at("cases"), 2);
 }
 
+TEST_F(ExperimentCommand, GivesTheMeansOfTheCasesAskedFor) {
+  ASSERT_EQ(experiment("--downsample 0.5").status, 0);
+  const auto again = nlohmann::json::parse(experiment("--downsample 0.5 --cases 2 --json").out);
+  ASSERT_EQ(again.at("micro_recall").size(), 2U);
+  for (const auto& mean : again.at("micro_recall")) EXPECT_EQ(mean.at("cases"), 1);
+}
+
 TEST_F(ExperimentCommand, TellsTheMethodsWhatASceneFileSays) {
   write_bytes(path("scene.toml"), "[[tube]]\nradius = 0.0125\n");
   const std::string options = "--cases 1 --tubes 1 --downsample 1 ";
