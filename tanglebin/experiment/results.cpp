@@ -79,6 +79,7 @@ Json limits_json(const ProcessLimits& limits) {
   Json json;
   json["time_limit"] = std::chrono::duration<double>(limits.time).count();
   json["memory_limit"] = number_or_null(limits.memory);
+  json["disk_limit"] = number_or_null(limits.disk);
   return json;
 }
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <functional>
@@ -173,6 +174,19 @@ TEST_F(RunExperiment, ABuiltInMethodMayHaveSettingsOfItsOwn) {
   const auto others = nlohmann::json::parse(bytes_of(results / "experiment.json")).at("other_methods");
   EXPECT_EQ(others.at("other").at("method"), "axis");
   EXPECT_EQ(others.at("other").at("parameters"), nlohmann::json({{"axis.label.distance_max", 0.01}}));
+}
+
+TEST_F(RunExperiment, SaysWhatACommandMayUse) {
+  const TemporaryDirectory results;
+  const ProcessLimits limits{.time = std::chrono::seconds(90), .memory = 1 << 20, .disk = 1 << 10};
+  settings_.methods = {{"mine", command_of("true {cloud} {out}", results.path(), limits)}};
+  settings_.ratios = {1};
+  run(results, {{"A", 3, 2}});
+  const auto experiment = nlohmann::json::parse(bytes_of(results / "experiment.json"));
+  const auto mine = experiment.at("other_methods").at("mine");
+  EXPECT_EQ(mine.at("time_limit"), 90);
+  EXPECT_EQ(mine.at("memory_limit"), 1 << 20);
+  EXPECT_EQ(mine.at("disk_limit"), 1 << 10);
 }
 
 TEST_F(RunExperiment, NeedsClouds) {
