@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "tanglebin/base/bytes_of.hpp"
@@ -102,10 +103,10 @@ std::vector<TubesMadeFor> tubes_of(const CalibrationScenes& scenes) {
 
 // The preset that the first scanner is; empty if it is none.
 std::string preset_of(const Recipe& recipe) {
-  for (const char* name : {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1", "phoxi"}) {
+  for (const std::string_view name : scanner_presets()) {
     const Camera camera = camera_preset(name);
     const bool is_camera = camera.width == recipe.camera.width && camera.fx == recipe.camera.fx;
-    if (is_camera && sensor_preset(name) == recipe.sensor) return name;
+    if (is_camera && sensor_preset(name) == recipe.sensor) return std::string(name);
   }
   return {};
 }

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
@@ -214,8 +217,9 @@ void add_scan(CLI::App& app) {
       ->excludes("--scene");
   command
       ->add_option("--scanner", arguments->scanner,
-                   "Scanner: paper (ideal), gaussian, zivid-one-plus-l, kinect-v1 or phoxi; its camera too, "
-                   "unless the scene has one; without this, the scene's scanner, or paper")
+                   fmt::format("Scanner: {}; its camera too, unless the scene has one; without this, the "
+                               "scene's scanner, or paper, which is ideal",
+                               fmt::join(scanner_presets(), ", ")))
       ->option_text("NAME");
   command
       ->add_option("--parameter", arguments->parameters,

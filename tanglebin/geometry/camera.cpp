@@ -73,6 +73,12 @@ double focal_length_from_hfov(int width, double hfov) {
   return width / (2 * std::tan(hfov / 2));
 }
 
+const std::vector<std::string_view>& scanner_presets() {
+  static const std::vector<std::string_view> names{"paper", "gaussian", "zivid-one-plus-l", "kinect-v1",
+                                                   "phoxi"};
+  return names;
+}
+
 Camera camera_preset(std::string_view name) {
   constexpr int width = 1920;
   constexpr int height = 1200;
@@ -83,7 +89,7 @@ Camera camera_preset(std::string_view name) {
   if (name == "zivid-one-plus-l") return downward_camera(width, height, 2730, position);
   if (name == "kinect-v1") return downward_camera(640, 480, 585, Vector3d(0, 0, 1));
   if (name == "phoxi") return tilted(downward_camera(2064, 1544, 2430, Vector3d(0, 0, 1.2)), 11.9);
-  reject_name(name, {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1", "phoxi"});
+  reject_name(name, scanner_presets());
 }
 
 Ray ray_through(const Camera& camera, double u, double v) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "tanglebin/geometry/ray.hpp"
 
@@ -45,6 +46,9 @@ Camera camera_with(const Intrinsics& intrinsics, const Eigen::Isometry3d& pose);
 
 /// Focal length, in pixels, of an image that is `width` pixels wide and spans `hfov` radians, 0 < hfov < π.
 double focal_length_from_hfov(int width, double hfov);
+
+/// The names of the preset scanners.
+const std::vector<std::string_view>& scanner_presets();
 
 /// Pose and intrinsics of the preset scanners; sensor_preset() gives their errors. "paper", "gaussian": 1920
 /// x 1200, 1.22 rad, 2 m above the floor (Section 6.1 and the published worlds). "zivid-one-plus-l": same

@@ -53,10 +53,8 @@ void validate(const SceneCamera& camera) {
 }
 
 void validate(const TubeClass& tubes, const std::string& where) {
-  constexpr double thinnest = 1e-4;
-  constexpr double thickest = 1;
   constexpr double longest = 1000;
-  if (tubes.radius) validate_range(*tubes.radius, thinnest, thickest, where + ".radius");
+  if (tubes.radius) validate_range(*tubes.radius, thinnest_radius, thickest_radius, where + ".radius");
   if (tubes.length) validate_range(*tubes.length, 0, longest, where + ".length");
   if (tubes.tree.empty()) return;
   validate(tubes.tree, where + ".segment");

@@ -29,7 +29,7 @@ Camera tilted(Camera camera, double angle, const Vector3d& axis) {
 }
 
 TEST(ViewOfBin, PresetsSeeTheirBins) {
-  for (const char* camera : {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1", "phoxi"}) {
+  for (const std::string_view camera : scanner_presets()) {
     for (const char* bin : {"paper", "published"})
       EXPECT_EQ(complaint(camera_preset(camera), bin_preset(bin)), "none") << camera << bin;
   }

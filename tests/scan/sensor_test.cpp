@@ -38,9 +38,9 @@ TEST(Sensor, IsIdealUnlessATermIsSwitchedOn) {
 }
 
 TEST(Sensor, PresetsAreValidAndOnlyThePapersIsIdeal) {
-  for (const char* name : {"paper", "gaussian", "zivid-one-plus-l", "kinect-v1", "phoxi"}) {
+  for (const std::string_view name : scanner_presets()) {
     EXPECT_EQ(complaint(sensor_preset(name)), "none") << name;
-    EXPECT_EQ(is_ideal(sensor_preset(name)), name == std::string("paper")) << name;
+    EXPECT_EQ(is_ideal(sensor_preset(name)), name == "paper") << name;
   }
   EXPECT_EQ(test::complaint([] { sensor_preset("eye"); }), test::complaint([] { camera_preset("eye"); }));
   EXPECT_THAT(test::complaint([] { sensor_preset("eye"); }), HasSubstr("found 'eye'"));

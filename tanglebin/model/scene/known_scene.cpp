@@ -20,14 +20,12 @@ void check_positive(double value, const std::string& field) {
   }
 }
 
-// Keeps the indices of grids with tube-wide cells in range.
 void validate_radius(double radius, const std::string& field) {
   check_positive(radius, field);
-  constexpr double thinnest = 1e-4;
-  constexpr double thickest = 1;
-  if (radius < thinnest || radius > thickest)
+  if (radius < thinnest_radius || radius > thickest_radius)
     throw InputError({"", 0, field}, fmt::format("{} m", radius),
-                     fmt::format("{} to {} m{}", thinnest, thickest, hint_of_millimetres(radius, thickest)));
+                     fmt::format("{} to {} m{}", thinnest_radius, thickest_radius,
+                                 hint_of_millimetres(radius, thickest_radius)));
 }
 
 // Larger numbers are not in metres. A tube may be longer than the bin, but not many times.

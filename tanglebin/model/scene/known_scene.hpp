@@ -10,6 +10,11 @@
 
 namespace tanglebin {
 
+/// The smallest and the largest radius of a tube, m. They keep the indices of grids with tube-wide cells in
+/// range.
+inline constexpr double thinnest_radius = 1e-4;
+inline constexpr double thickest_radius = 1;
+
 /// What is known about a kind of tube.
 struct TubeKind {
   double radius = 0.0125;                 ///< m
