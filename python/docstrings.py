@@ -14,8 +14,8 @@ from pathlib import Path
 
 # The words of C++ that Python has others for.
 PYTHON_WORDS = [
-    (r"\b([Tt])hrows std::(invalid_argument|length_error)", r"\1hrows ValueError"),
-    (r"\bstd::(invalid_argument|length_error)", "ValueError"),
+    (r"\bstd::invalid_argument", "InputError"),
+    (r"\bstd::length_error", "ValueError"),
     (r"\bstd::runtime_error", "RuntimeError"),
     (r"\bnullopt\b", "None"),
     (r"\bThrows\b", "Raises"),

@@ -39,6 +39,8 @@ def normals_of(points):
     return normals * np.where(normals[:, 2:] < 0, -1, 1)
 
 
+if len(sys.argv) != 4:
+    sys.exit("usage: dbscan.py CLOUD.ply SCENE.toml OUT.npy")
 cloud, scene_file, out = sys.argv[1:]
 points = read_points(cloud)
 scene = open(scene_file).read()

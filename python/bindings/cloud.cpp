@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,7 +66,9 @@ std::vector<Color> colors_of(const py::array& array) {
 std::vector<std::int32_t> labels_from(const py::array& array) {
   std::vector<std::int32_t> labels = integers_of<std::int32_t>(array, "labels");
   if (const auto low = std::ranges::min_element(labels); low != labels.end() && *low < -1)
-    throw InputError({"", 0, "labels"}, std::to_string(*low), "-1, 0, 1, …");
+    throw InputError(
+        {"", 0, "labels"}, std::to_string(*low),
+        fmt::format("a label from -1, which is null, to {}", std::numeric_limits<std::int32_t>::max()));
   return labels;
 }
 

@@ -1,4 +1,5 @@
 #include <exception>
+#include <stdexcept>
 
 #include "bindings.hpp"
 #include "tanglebin/base/error.hpp"
@@ -36,6 +37,8 @@ void bind_errors(py::module_& module) {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const InputError& error) {
       raise_input_error(error);
+    } catch (const std::invalid_argument& error) {  // an argument that breaks what a function asks for
+      raise_input_error(InputError({}, error.what()));
     } catch (const SystemError& error) {
       PyErr_SetString(system_error.ptr(), error.what());
     }

@@ -8,6 +8,7 @@
 #include "tanglebin/model/model_tubes.hpp"
 #include "tanglebin/model/parameters.hpp"
 #include "tanglebin/model/tubes_json.hpp"
+#include "tanglebin/report/text.hpp"
 
 namespace tanglebin::python {
 namespace {
@@ -116,7 +117,11 @@ void bind_model(py::module_& module) {
       .def_readonly("estimated_lengths", &Model::estimated_lengths, doc::model::Model_estimated_lengths)
       .def_readonly("counts", &Model::counts, doc::model::PointCounts)
       .def_readonly("findings", &Model::findings, doc::model::Model_findings)
-      .def_property_readonly("is_refused", &Model::is_refused, doc::model::Model_is_refused);
+      .def_property_readonly("is_refused", &Model::is_refused, doc::model::Model_is_refused)
+      .def("__repr__", [](const Model& model) {
+        return fmt::format("<Model of {}: {}, {}>", counted(model.labels.size(), "point"),
+                           counted(model.tubes.size(), "tube"), counted(model.findings.size(), "finding"));
+      });
   module.def(
       "model_tubes",
       [](const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings) {

@@ -5,13 +5,16 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arrays.hpp"
 #include "long_work.hpp"
 #include "tanglebin/base/bytes_of.hpp"
+#include "tanglebin/base/expect.hpp"
 #include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/recipe/doubts.hpp"
+#include "tanglebin/report/text.hpp"
 #include "tanglebin/simulate/simulate.hpp"
 #include "tanglebin/simulate/world_sdf.hpp"
 
@@ -28,12 +31,17 @@ Recipe recipe_from(const std::string& text) {
   return read_recipe(in, "recipe");
 }
 
+// A scene has at least one tube, and cases count from 1.
+CaseId case_id_of(std::string set, int tubes, int number) {
+  expect(tubes >= 1, "tubes", fmt::format("{}", tubes), "at least 1");
+  expect(number >= 1, "number", fmt::format("{}", number), "at least 1");
+  return {std::move(set), tubes, number};
+}
+
 void bind_case_id(py::module_& module) {
   py::class_<CaseId>(module, "CaseId", doc::recipe::CaseId)
-      .def(py::init([](std::string set, int tubes, int number) {
-             return CaseId{std::move(set), tubes, number};
-           }),
-           py::arg("set"), py::arg("tubes"), py::arg("number"))
+      .def(py::init(&case_id_of), py::arg("set"), py::arg("tubes"), py::arg("number"),
+           "Raises InputError if a number is less than 1.")
       .def_readonly("set", &CaseId::set, "the name of its set")
       .def_readonly("tubes", &CaseId::tubes, doc::recipe::CaseId_tubes)
       .def_readonly("number", &CaseId::number, doc::recipe::CaseId_number)
@@ -149,7 +157,11 @@ void bind_simulate(py::module_& module) {
       .def_readonly("seed", &SimulatedScene::seed, doc::SimulatedScene_seed)
       .def_readonly("simulated", &SimulatedScene::simulated, doc::SimulatedScene_simulated)
       .def_readonly("largest_overlap", &SimulatedScene::largest_overlap, doc::SimulatedScene_largest_overlap)
-      .def_readonly("rejections", &SimulatedScene::rejections, "the attempts before");
+      .def_readonly("rejections", &SimulatedScene::rejections, "the attempts before")
+      .def("__repr__", [](const SimulatedScene& scene) {
+        return fmt::format("<SimulatedScene of {}, {}, seed {:#x}>", counted(scene.tubes.size(), "tube"),
+                           counted(1 + scene.further_scans.size(), "scan"), scene.seed);
+      });
   module.def(
       "simulate",
       [](const Recipe& dataset, const CaseId& id, const Progress& progress) {

@@ -1,5 +1,6 @@
 #include "tanglebin/scene/scene.hpp"
 
+#include <fmt/ranges.h>
 #include <pybind11/operators.h>
 
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "tanglebin/files/safe_file.hpp"
 #include "tanglebin/model/locate/locate.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"
+#include "tanglebin/report/text.hpp"
 #include "tanglebin/scene/camera_file.hpp"
 #include "tanglebin/scene/read_measurement.hpp"
 #include "tanglebin/scene/read_scene.hpp"
@@ -32,6 +34,15 @@ std::string scene_text(const Scene& scene) {
   return bytes_of([&](std::ostream& out) { write_scene(out, scene); });
 }
 
+// What is known: "<Scene: camera, bin, tubes>".
+std::string text_of_scene(const Scene& scene) {
+  std::vector<std::string> known;
+  if (scene.camera.intrinsics) known.emplace_back("camera");
+  if (scene.support) known.emplace_back(name_of(scene.support->shape));
+  if (!scene.tubes.empty()) known.emplace_back("tubes");
+  return fmt::format("<Scene: {}>", known.empty() ? "nothing" : fmt::format("{}", fmt::join(known, ", ")));
+}
+
 Scene scene_from(const std::string& text) {
   std::istringstream in(text);
   return read_scene(in, "scene", ".");
@@ -45,6 +56,7 @@ void bind_scenes(py::module_& module) {
       .def("toml", &scene_text, "The text of a scene file that reads back as the same, number for number.")
       .def_property_readonly("is_empty", &is_empty, doc::scene::is_empty)
       .def("overridden", &overridden, py::arg("more"), doc::scene::overridden)
+      .def("__repr__", &text_of_scene)
       .def(py::pickle(&scene_text, &scene_from));
   module.def(
       "read_scene", [](const fs::path& file, std::optional<int> image) { return read_scene(file, image); },
@@ -80,7 +92,12 @@ void bind_measurements(py::module_& module) {
   py::class_<ResolvedScene>(module, "ResolvedScene", doc::scene::ResolvedScene)
       .def_readonly("cloud", &ResolvedScene::cloud, doc::scene::ResolvedScene_cloud)
       .def_readonly("known", &ResolvedScene::known, doc::scene::ResolvedScene_known)
-      .def_readonly("notes", &ResolvedScene::notes, doc::scene::ResolvedScene_notes);
+      .def_readonly("notes", &ResolvedScene::notes, doc::scene::ResolvedScene_notes)
+      .def("__repr__", [](const ResolvedScene& scene) {
+        return fmt::format("<ResolvedScene of {}: {} of tubes, support: {}>",
+                           counted(scene.cloud.points.size(), "point"),
+                           counted(scene.known.kinds.size(), "kind"), name_of(scene.known.support.shape));
+      });
   const auto resolver = [&](const char* name, auto function, const char* text) {
     module.def(
         name,

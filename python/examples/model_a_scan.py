@@ -7,14 +7,19 @@ The scene file says what is known of camera, bin and tubes (docs/real-scans.md).
 The same in C++: examples/model_a_scan.
 """
 
+import argparse
 import sys
 
 import tanglebin
 
 
 def main():
-    scan, scene = sys.argv[1:]
-    measured = tanglebin.read_measurement(scan, tanglebin.read_scene(scene))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scan", help="cloud or depth image")
+    parser.add_argument("scene", help="scene file (TOML)")
+    arguments = parser.parse_args()
+
+    measured = tanglebin.read_measurement(arguments.scan, tanglebin.read_scene(arguments.scene))
     resolved = tanglebin.resolve(measured.scene, measured.cloud)
     for note in resolved.notes:
         print(note, file=sys.stderr)

@@ -7,7 +7,7 @@ Prints the micro-recall of each case, and their mean: the share of the points on
 to their tube (docs/metrics.md).
 """
 
-import sys
+import argparse
 
 import numpy as np
 import tanglebin
@@ -40,7 +40,9 @@ def label_points(points):
 
 
 def main():
-    dataset = tanglebin.Dataset(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("dataset", help="directory of a dataset")
+    dataset = tanglebin.Dataset(parser.parse_args().dataset)
     recalls = []
     for case in dataset:
         on_tubes = case.cloud.labels > 0

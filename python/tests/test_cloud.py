@@ -85,7 +85,7 @@ def test_an_image_of_points_is_an_organized_cloud():
             dict(points=np.zeros((1, 3)), labels=np.array([2**64 - 1], np.uint64)),
             "labels: found 18446744073709551615, expected an integer from",
         ),
-        (dict(points=np.zeros((1, 3)), labels=[-2]), "labels: found -2, expected -1, 0, 1"),
+        (dict(points=np.zeros((1, 3)), labels=[-2]), "labels: found -2, expected a label from -1, which is null, to 2147483647"),
         (dict(points=np.zeros((1, 3)), colors=[[0, 0, 256]]), "colors: found 256, expected an integer from 0 to 255"),
     ],
 )

@@ -19,6 +19,12 @@ def run(name, *arguments):
     return subprocess.run(command, check=True, capture_output=True, text=True, env=os.environ).stdout
 
 
+@pytest.mark.parametrize("name", ["model_a_scan.py", "score_my_algorithm.py", "train_loader.py"])
+def test_without_arguments_they_say_how_to_run_them(name):
+    run = subprocess.run([sys.executable, EXAMPLES / name], capture_output=True, text=True, env=os.environ)
+    assert run.returncode == 2 and run.stderr.startswith("usage: " + name) and "Traceback" not in run.stderr
+
+
 def example(name):
     spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
     module = importlib.util.module_from_spec(spec)

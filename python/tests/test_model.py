@@ -29,6 +29,7 @@ def test_a_model_finds_the_tubes(model, cloud, scene):
     assert not model.is_refused and len(model.tubes) == 3
     assert tanglebin.score(cloud.labels, model.labels).micro_recall > 0.98
     assert tanglebin.score_tubes(scene.tubes, model.tubes).complete_tubes == 3
+    assert repr(model) == f"<Model of {len(cloud)} points: 3 tubes, {len(model.findings)} findings>"
 
 
 def test_arrays_are_in_the_models_memory(model, cloud):

@@ -13,6 +13,13 @@ def test_a_recipe_lists_its_cases(recipe):
     assert len({id, tanglebin.CaseId("A", 3, 2)}) == 1 and sorted(recipe.cases) == recipe.cases
 
 
+@pytest.mark.parametrize("tubes, number, field", [(0, 1, "tubes"), (-3, 1, "tubes"), (3, 0, "number"), (3, -3, "number")])
+def test_a_case_that_cannot_be_is_refused(tubes, number, field):
+    with pytest.raises(tanglebin.InputError, match="expected at least 1") as caught:
+        tanglebin.CaseId("A", tubes, number)
+    assert caught.value.field == field
+
+
 def test_a_recipe_is_read_written_and_sent(recipe, tmp_path):
     tanglebin.write_recipe(tmp_path / "recipe.toml", recipe)
     assert tanglebin.read_recipe(tmp_path / "recipe.toml") == recipe
@@ -66,6 +73,7 @@ def test_a_scanner_is_a_preset_with_changes():
 
 def test_a_simulated_scene_says_how_it_came_about(scene, recipe):
     assert isinstance(scene, tanglebin.SimulatedScene)
+    assert repr(scene) == f"<SimulatedScene of 3 tubes, 1 scan, seed {scene.seed:#x}>"
     assert scene.further_scans == [] and scene.largest_overlap < 0.0003 and scene.simulated > 0
     assert all(isinstance(rejection, tanglebin.Rejection) for rejection in scene.rejections)
     again = tanglebin.simulate(recipe, tanglebin.CaseId("A", 3, 1))

@@ -19,6 +19,7 @@ def test_scene_files_are_read_and_written(source, tmp_path):
     again = tanglebin.read_scene(tmp_path / "scene.toml")
     assert again.toml() == scene.toml() == pickle.loads(pickle.dumps(scene)).toml()
     assert tanglebin.Scene().is_empty and not scene.is_empty
+    assert repr(scene) == "<Scene: camera, bin, tubes>" and repr(tanglebin.Scene()) == "<Scene: nothing>"
     assert tanglebin.Scene().overridden(scene).toml() == scene.toml()
     with pytest.raises(tanglebin.InputError, match="scene:1: unknown key 'camra'"):
         tanglebin.Scene("[camra]\n")
@@ -32,6 +33,7 @@ def test_a_scan_is_read_with_what_is_known_of_it(scene, told, tmp_path):
     resolved = tanglebin.resolve(measured.scene, measured.cloud)
     assert isinstance(resolved, tanglebin.ResolvedScene) and isinstance(resolved.notes, list)
     np.testing.assert_array_equal(resolved.cloud.points, cloud.points)
+    assert repr(resolved) == f"<ResolvedScene of {len(cloud)} points: 1 kind of tubes, support: bin>"
     known = resolved.known
     assert isinstance(known, tanglebin.KnownScene) and known.camera == scene.scan.camera
     assert known.kinds[0].radius == 0.0125 and known.kinds[0].length == pytest.approx(0.5)

@@ -22,9 +22,9 @@ def test_labels_are_scored():
 
 
 def test_what_cannot_be_scored_is_refused():
-    with pytest.raises(ValueError):
+    with pytest.raises(tanglebin.InputError, match="the same number of labels"):
         tanglebin.score([1, 2], [1])
-    with pytest.raises(ValueError):
+    with pytest.raises(tanglebin.InputError, match="no point on a tube"):
         tanglebin.score([0, 0], [1, 1])
     with pytest.raises(tanglebin.InputError, match="predicted: found an array of float64"):
         tanglebin.score([1, 1], [0.5, 1])

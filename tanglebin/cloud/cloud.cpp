@@ -28,8 +28,10 @@ void check_cloud(const PointCloud& cloud) {
   if (cloud.width * cloud.height != points) {
     throw std::invalid_argument("point cloud: width * height must be the number of points");
   }
-  if (std::ranges::any_of(cloud.labels, [](std::int32_t label) { return label < null_label; })) {
-    throw std::invalid_argument("point cloud: labels must not be below -1");
+  const auto lowest = std::ranges::min_element(cloud.labels);
+  if (lowest != cloud.labels.end() && *lowest < null_label) {
+    throw std::invalid_argument("point cloud: a label of " + std::to_string(*lowest) +
+                                "; labels are -1 (null), 0 (the bin) and the numbers of tubes, from 1");
   }
 }
 
