@@ -66,7 +66,6 @@ tanglebin_room(export               TARGET exports     ROOMS base files geometry
 tanglebin_room(cli/terminal         TARGET program     ROOMS base files runs dataset report)
 tanglebin_room(cli/options          TARGET program     ROOMS base files geometry cloud io model/scene model profile
                                                              scene recipe runs dataset experiment report cli/terminal)
-tanglebin_room(cli                  TARGET program     ROOMS base files geometry cloud io model/scene model/axis
-                                                             model/paper model profile scene score scan recipe runs
-                                                             dataset experiment calibrate pictures report export
-                                                             cli/terminal cli/options)
+tanglebin_room(cli                  TARGET program     ROOMS base files geometry cloud io model profile scene score scan
+                                                             recipe runs dataset experiment calibrate pictures report
+                                                             export cli/terminal cli/options)

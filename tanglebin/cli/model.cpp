@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "tanglebin/base/bytes_of.hpp"
@@ -22,10 +23,8 @@
 #include "tanglebin/io/images.hpp"
 #include "tanglebin/io/pcd.hpp"
 #include "tanglebin/io/ply.hpp"
-#include "tanglebin/model/axis/axis_method.hpp"
 #include "tanglebin/model/model_tubes.hpp"
-#include "tanglebin/model/paper/paper_method.hpp"
-#include "tanglebin/model/scene/support_frame.hpp"
+#include "tanglebin/model/model_with_steps.hpp"
 #include "tanglebin/pictures/pictures_of_steps.hpp"
 #include "tanglebin/scene/locate_support.hpp"
 #include "tanglebin/scene/read_measurement.hpp"
@@ -92,25 +91,19 @@ ModelSettings model_settings(const ModelArguments& arguments, const Profile& pro
   return settings;
 }
 
-// The methods work in the support's frame, and so do their pictures.
-std::vector<NamedPicture> pictures(const Seen& seen, const ModelSettings& settings, const std::string& name) {
-  const auto& [cloud, known] = seen;
-  const auto& [method, ratio, seed, axis, paper] = settings;
-  switch (method) {
-    case Method::paper:
-      return pictures_of_steps(cloud, model_as_in_paper(cloud, known, ratio, seed, paper), known.support,
-                               known.kinds[0].radius, name);
-    case Method::axis:
-      return pictures_of_steps(cloud, model_by_axes(cloud, known, ratio, seed, axis), known.support, name);
-  }
-  return {};
+std::vector<NamedPicture> pictures_of(const Seen& seen, const PaperModel& steps, const std::string& name) {
+  return pictures_of_steps(seen.cloud, steps, seen.known.support, seen.known.kinds[0].radius, name);
 }
 
-void write_pictures(const ResolvedScene& scene, const ModelSettings& settings,
-                    const ModelArguments& arguments) {
+std::vector<NamedPicture> pictures_of(const Seen& seen, const AxisModel& steps, const std::string& name) {
+  return pictures_of_steps(seen.cloud, steps, seen.known.support, name);
+}
+
+void write_pictures(const ModelWithSteps& modelled, const ModelArguments& arguments) {
   make_directories(*arguments.debug_directory);
-  const Seen seen = in_support_frame(scene.cloud, scene.known);
-  for (const auto& [name, picture] : pictures(seen, settings, arguments.cloud)) {
+  const auto pictures = std::visit(
+      [&](const auto& steps) { return pictures_of(modelled.seen, steps, arguments.cloud); }, modelled.steps);
+  for (const auto& [name, picture] : pictures) {
     write_file(std::filesystem::path(*arguments.debug_directory) / (name + ".png"),
                color_png(picture.width, picture.height, picture.pixels));
   }
@@ -145,12 +138,13 @@ void model_cloud(const ModelArguments& arguments) {
   print_notes(resolved.notes);
   print_doubts(profile, resolved.known, arguments.model.profile);
   with_option("--method", "method", [&] { validate(resolved.known, settings); });
-  const Model model =
-      with_file(arguments.cloud, [&] { return model_tubes(resolved.cloud, resolved.known, settings); });
+  const ModelWithSteps modelled =
+      with_file(arguments.cloud, [&] { return model_with_steps(resolved.cloud, resolved.known, settings); });
+  const Model& model = modelled.model;
   std::vector<std::pair<std::string, std::string>> files = contents(arguments.files, model);
   files.emplace_back(arguments.out, cloud_bytes(measured.cloud, model, arguments.out));
   write_outputs(files);
-  if (arguments.debug_directory) write_pictures(resolved, settings, arguments);
+  if (arguments.debug_directory) write_pictures(modelled, arguments);
   if (!take_standard_output(outputs(arguments))) print_summary(arguments, resolved, model);
   print_findings(model, arguments.cloud);
   expect_usable(model);

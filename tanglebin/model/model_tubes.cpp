@@ -4,27 +4,10 @@
 
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/model/axis/axis_method.hpp"
-#include "tanglebin/model/diagnose.hpp"
+#include "tanglebin/model/model_with_steps.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
-#include "tanglebin/model/point_counts.hpp"
-#include "tanglebin/model/scene/support_frame.hpp"
 
 namespace tanglebin {
-namespace {
-
-// In the support's frame.
-Model model_here(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings,
-                 const std::function<void()>& at_step) {
-  const auto& [method, ratio, seed, axis, paper] = settings;
-  const bool as_in_paper = method == Method::paper;
-  Model model = as_in_paper ? model_as_in_paper(cloud, known, ratio, seed, paper, at_step).model
-                            : model_by_axes(cloud, known, ratio, seed, axis, at_step).model;
-  count_points(model, cloud, known, as_in_paper ? paper.filter : axis.filter);
-  return model;
-}
-
-}  // namespace
 
 std::vector<Method> methods() {
   return {Method::paper, Method::axis};
@@ -66,16 +49,7 @@ void validate(const KnownScene& known, const ModelSettings& settings) {
 
 Model model_tubes(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings,
                   const std::function<void()>& at_step) {
-  validate(known, settings);
-  Model model;
-  if (is_in_support_frame(known)) {
-    model = model_here(cloud, known, settings, at_step);
-  } else {
-    const Seen seen = in_support_frame(cloud, known);
-    model = in_world_frame(model_here(seen.cloud, seen.known, settings, at_step), known);
-  }
-  model.findings = diagnose(cloud, known, model, settings.ratio);
-  return model;
+  return model_with_steps(cloud, known, settings, at_step).model;
 }
 
 }  // namespace tanglebin

@@ -23,10 +23,10 @@ constexpr std::string_view format_key = "format";
 constexpr std::string_view method_key = "method";
 constexpr std::string_view made_for_key = "made_for";
 constexpr std::string_view reached_key = "reached";
-constexpr std::array keys = {format_key, method_key, made_for_key, reached_key};
+constexpr std::array own_keys = {format_key, method_key, made_for_key, reached_key};
 
 bool is_parameter(const std::string& path) {
-  return std::ranges::find(keys, path) == keys.end();
+  return std::ranges::find(own_keys, path) == own_keys.end();
 }
 
 void expect_format(const TomlTable& root) {
@@ -69,7 +69,7 @@ void get_text(const TomlTable& table, std::string_view key, std::string& value) 
   if (!is_plain) table.fail(key, excerpt(value), "text without quotes, backslashes and special characters");
 }
 
-TubesMadeFor read_tubes(const TomlTable& table) {
+TubesMadeFor read_tubes_made_for(const TomlTable& table) {
   TubesMadeFor tubes;
   table.allow({"radius_min", "radius_max", "length_min", "length_max"});
   get_positive(table, "radius_min", tubes.radius_min);
@@ -79,7 +79,7 @@ TubesMadeFor read_tubes(const TomlTable& table) {
   return tubes;
 }
 
-Bin read_bin(const TomlTable& table) {
+Bin read_bin_made_for(const TomlTable& table) {
   Bin bin;
   table.allow({"length", "width", "height"});
   get_positive(table, "length", bin.length);
@@ -95,11 +95,11 @@ MadeFor read_made_for(const TomlTable& table) {
   get_text(table, "scanner", made_for.scanner);
   get_positive(table, "image_width", made_for.image_width);
   get_positive(table, "focal_length", made_for.focal_length);
-  made_for.bin = read_bin(table.table("bin"));
+  made_for.bin = read_bin_made_for(table.table("bin"));
   get_text(table, "recipe_sha256", made_for.recipe_sha256);
   get_text(table, "version", made_for.version);
   get_text(table, "program_sha256", made_for.program_sha256);
-  for (const TomlTable& tubes : table.tables("tube")) made_for.tubes.push_back(read_tubes(tubes));
+  for (const TomlTable& tubes : table.tables("tube")) made_for.tubes.push_back(read_tubes_made_for(tubes));
   return made_for;
 }
 

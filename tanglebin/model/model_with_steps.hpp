@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+#include <variant>
+
+#include "tanglebin/cloud/cloud.hpp"
+#include "tanglebin/model/axis/axis_method.hpp"
+#include "tanglebin/model/model_tubes.hpp"
+#include "tanglebin/model/paper/paper_method.hpp"
+#include "tanglebin/model/scene/known_scene.hpp"
+#include "tanglebin/model/scene/model.hpp"
+#include "tanglebin/model/scene/support_frame.hpp"
+
+namespace tanglebin {
+
+/// The results of a method's steps.
+using MethodSteps = std::variant<PaperModel, AxisModel>;
+
+/// A model, and how the method came to it.
+struct ModelWithSteps {
+  Model model{};        ///< in the world frame
+  Seen seen{};          ///< what the method worked on, in the support's frame
+  MethodSteps steps{};  ///< in the support's frame
+};
+
+/// The same as model_tubes(), with the results of the steps.
+ModelWithSteps model_with_steps(
+    const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings = {},
+    const std::function<void()>& at_step = [] {});
+
+}  // namespace tanglebin
