@@ -140,11 +140,18 @@ LinkWeights as_weights(const LinkVector& vector) {
   return weights;
 }
 
-// The sum of the features of the links that are chosen among these, heaviest first. None for trees: their
-// choice is greedy, so its mistakes say little of the weights. All of what angles weigh counts, since it is
-// learned where nothing tells more.
-LinkVector features_of_chosen(const LinkScene& scene, const std::vector<Link>& links, LinkSettings settings) {
+// All of what angles weigh counts, since it is learned where nothing tells more.
+LinkSettings settings_with(const LinkVector& weights) {
+  LinkSettings settings;
+  settings.weights = as_weights(weights);
   settings.bent_angles = 1;
+  return settings;
+}
+
+// The sum of the features of the links that are chosen among these, heaviest first. None for trees: their
+// choice is greedy, so its mistakes say little of the weights.
+LinkVector features_of_chosen(const LinkScene& scene, const std::vector<Link>& links,
+                              const LinkSettings& settings) {
   LinkVector sum = LinkVector::Zero();
   if (scene.kind.branches()) return sum;
   for (const std::size_t i : choose_links(scene.fragments, links, scene.kind, settings, scene.seen).links) {
@@ -163,7 +170,7 @@ LinkVector features_of_true(const LinkScene& scene) {
     links.push_back(scene.links[i]);
     links.back().weight = certain;
   }
-  return features_of_chosen(scene, links, {});
+  return features_of_chosen(scene, links, settings_with(LinkVector::Zero()));
 }
 
 // Moves the weights until the links that are chosen have, in sum over the scenes, the features of the true
@@ -179,8 +186,7 @@ LinkVector moved_to_true_links(const std::vector<LinkScene>& scenes, const std::
   for (const LinkScene& scene : scenes) of_true += features_of_true(scene);
   LinkVector sum = LinkVector::Zero();
   for (int pass = 0; pass < passes; ++pass) {
-    LinkSettings settings;
-    settings.weights = as_weights(weights);
+    const LinkSettings settings = settings_with(weights);
     LinkVector of_chosen = LinkVector::Zero();
     for (const LinkScene& scene : scenes)
       of_chosen += features_of_chosen(scene, weighed(scene.links, settings), settings);

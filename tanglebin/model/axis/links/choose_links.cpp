@@ -192,12 +192,10 @@ ChosenLinks likeliest(const LinkCandidates& candidates) {
   return {.links = selection.taken(), .log_odds = selection.weight(), .shapes = {}};
 }
 
-// What its angles add to a link's weight.
-double weight_of_angles(const Link& link, const LinkSettings& settings) {
-  double sum = 0;
-  for (const std::size_t feature : angle_features)
-    sum += settings.weights.of(link.kind)[feature] * link.features[feature];
-  return ends_taken(link.kind) * sum;
+// Those that are likelier to be true than not: they come first.
+std::vector<Link> likely(const std::vector<Link>& links) {
+  const auto unlikely = std::ranges::find_if(links, [](const Link& link) { return link.weight <= 0; });
+  return {links.begin(), unlikely};
 }
 
 /// Links with other weights, heaviest first.
@@ -206,27 +204,28 @@ struct Reweighed {
   std::vector<std::size_t> before;  ///< for each, its index among those that it comes from
 };
 
-// The same links, with this share of what angles weigh.
-Reweighed with_share_of_angles(double share, std::vector<Link> links, const LinkSettings& settings) {
-  for (Link& link : links) link.weight -= (1 - share) * weight_of_angles(link, settings);
+Reweighed reweighed_where_bent(std::vector<Link> links, const LinkSettings& settings) {
+  for (Link& link : links) link.weight = weight_where_bent(link, settings);
   std::vector<std::size_t> order(links.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return links[i].weight; });
   return {.links = picked(links, order), .before = order};
 }
 
-// The likeliest combination of links of chains that look like these. Bent ones may turn sharply where that is
-// hidden, and what they look like tells more than angles.
-ChosenLinks likeliest_like(TubeShapes shapes, const LinkCandidates& candidates) {
-  const LinkSettings& settings = candidates.settings;
-  const double share = shapes.are_bent() ? settings.bent_angles : 1;
-  const auto [links, before] = with_share_of_angles(share, candidates.links, settings);
-  LinkCandidates alike(candidates.fragments, links, candidates.kind, settings, candidates.seen,
-                       std::move(shapes));
+// The likeliest combination of links of chains that look like these.
+ChosenLinks likeliest_like(TubeShapes shapes, const LinkCandidates& of, const std::vector<Link>& links) {
+  LinkCandidates alike(of.fragments, links, of.kind, of.settings, of.seen, std::move(shapes));
   ChosenLinks chosen = likeliest(alike);
+  chosen.shapes = std::move(alike.shapes);
+  return chosen;
+}
+
+// The same for bent chains.
+ChosenLinks likeliest_bent_like(TubeShapes shapes, const LinkCandidates& of, const std::vector<Link>& links) {
+  const auto [by_weight, before] = reweighed_where_bent(links, of.settings);
+  ChosenLinks chosen = likeliest_like(std::move(shapes), of, by_weight);
   for (std::size_t& link : chosen.links) link = before[link];
   std::ranges::sort(chosen.links);
-  chosen.shapes = std::move(alike.shapes);
   return chosen;
 }
 
@@ -235,12 +234,15 @@ ChosenLinks likeliest_like(TubeShapes shapes, const LinkCandidates& candidates) 
 ChosenLinks choose_links(const std::vector<Fragment>& fragments, const std::vector<Link>& links,
                          const TubeKind& kind, const LinkSettings& settings, const RangeImage& seen,
                          const TubeShapes& otherwise) {
-  const LinkCandidates candidates(fragments, links, kind, settings, seen);
+  const std::vector<Link> likely_links = likely(links);
+  const LinkCandidates candidates(fragments, likely_links, kind, settings, seen);
   ChosenLinks chosen = likeliest(candidates);
   if (kind.branches()) return chosen;
   TubeShapes shapes = shapes_of_whole_chains(candidates, chosen.links);
   if (!shapes.are_known()) shapes = otherwise;
-  return shapes.are_known() ? likeliest_like(std::move(shapes), candidates) : chosen;
+  if (!shapes.are_known()) return chosen;
+  if (shapes.are_bent()) return likeliest_bent_like(std::move(shapes), candidates, links);
+  return likeliest_like(std::move(shapes), candidates, likely_links);
 }
 
 std::vector<std::vector<std::size_t>> linked_fragments(std::size_t fragments, const std::vector<Link>& links,

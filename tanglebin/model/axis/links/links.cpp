@@ -118,10 +118,23 @@ double weight_of(const Link& link, const LinkSettings& settings) {
                                                                                  link.features.begin(), 0.0);
 }
 
+// What its angles add to a link's weight.
+double weight_of_angles(const Link& link, const LinkSettings& settings) {
+  double sum = 0;
+  for (const std::size_t feature : angle_features)
+    sum += settings.weights.of(link.kind)[feature] * link.features[feature];
+  return ends_taken(link.kind) * sum;
+}
+
+// The weight of a link, whether whole chains are bent or not.
+double greatest_weight(const Link& link, const LinkSettings& settings) {
+  return std::max(link.weight, weight_where_bent(link, settings));
+}
+
 // The most that a link may have of a feature that it has none of yet, to weigh more than 0.
 double most_of(const Link& link, std::size_t feature, const LinkSettings& settings) {
   const double cost = -ends_taken(link.kind) * settings.weights.of(link.kind)[feature];
-  return cost > 0 ? weight_of(link, settings) / cost : std::numeric_limits<double>::infinity();
+  return cost > 0 ? greatest_weight(link, settings) / cost : std::numeric_limits<double>::infinity();
 }
 
 std::vector<Link> heaviest_first(std::vector<Link> links) {
@@ -270,7 +283,8 @@ private:
   // What lies on the way of a link takes the longest to find out, so that comes last.
   void consider(Link link) {
     link.weight = weight_of(link, settings_);
-    if (link.features[alpha] <= settings_.angle_max && link.weight > 0) considered_.add(std::move(link));
+    if (link.features[alpha] > settings_.angle_max || greatest_weight(link, settings_) <= 0) return;
+    considered_.add(std::move(link));
   }
 
   FragmentEnd target_of(const Link& link, const FragmentEnd& from) const {
@@ -301,6 +315,7 @@ private:
     const std::optional<double> overlap = overlap_on(way, overlap_max, link, from, to);
     if (!overlap) return std::nullopt;
     link.features[obstruction] = std::sqrt(*overlap);
+    link.weight = weight_of(link, settings_);
     const double empty_max = std::min(settings_.seen_empty_max, most_of(link, seen_empty, settings_));
     const std::optional<double> empty = mean_on(way, empty_max, [&](const Vector3d& axis) {
       return seen_.shows_empty(axis, kind_.radius) ? 1.0 : 0.0;
@@ -308,7 +323,7 @@ private:
     if (!empty) return std::nullopt;
     link.features[seen_empty] = *empty;
     link.weight = weight_of(link, settings_);
-    return link.weight > 0 ? std::optional(link) : std::nullopt;
+    return greatest_weight(link, settings_) > 0 ? std::optional(link) : std::nullopt;
   }
 
   // What was seen to be empty counts first: there is no tube. The weights do not choose the way, so the
@@ -345,9 +360,14 @@ double length_max(double length, const LinkSettings& settings) {
   return length * (1 + settings.length_tolerance);
 }
 
+double weight_where_bent(const Link& link, const LinkSettings& settings) {
+  if (link.kind != LinkKind::chain_ends) return link.weight;
+  return link.weight - (1 - settings.bent_angles) * weight_of_angles(link, settings);
+}
+
 std::vector<Link> weighed(std::vector<Link> links, const LinkSettings& settings) {
   for (Link& link : links) link.weight = weight_of(link, settings);
-  std::erase_if(links, [](const Link& link) { return link.weight <= 0; });
+  std::erase_if(links, [&](const Link& link) { return greatest_weight(link, settings) <= 0; });
   return heaviest_first(std::move(links));
 }
 

@@ -38,7 +38,12 @@ struct Link {
 /// The largest length, m, that a tube of this length (m) may appear to have.
 double length_max(double length, const LinkSettings& settings);
 
-/// The possible links between fragments of one kind of tube, heaviest first. The settings limit the turn and
+/// The weight of a link where whole chains are bent: such a chain may turn sharply where it is hidden, so
+/// only the share settings.bent_angles of what angles weigh between ends of chains counts.
+double weight_where_bent(const Link& link, const LinkSettings& settings);
+
+/// The possible links between fragments of one kind of tube, heaviest first; those that are likelier not to
+/// be true, but would not be where whole chains are bent, weigh 0 or less. The settings limit the turn and
 /// the tube's length, and the space between must not have been seen to be empty. For trees, only the
 /// likeliest link from each end to each other fragment. Of more than 40,000, those are dropped that weigh
 /// least without regard to what was seen of the way and what is in it. `others` is the space that tubes of
@@ -47,8 +52,8 @@ std::vector<Link> find_links(const std::vector<Fragment>& fragments, const Range
                              const TubeKind& kind, const LinkSettings& settings,
                              const std::vector<Ball>& others = {});
 
-/// The same links with the weights that these settings give them, heaviest first; without those that are
-/// likelier not to be true.
+/// The same links with the weights that these settings give them, heaviest first; without those that
+/// find_links() would not find by them.
 std::vector<Link> weighed(std::vector<Link> links, const LinkSettings& settings);
 
 }  // namespace tanglebin

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "tests/geometry/example_tubes.hpp"
 #include "tests/model/axis/fragments/straight_fragment.hpp"
@@ -28,7 +29,8 @@ TEST(Links, JoinEndsThatFaceEachOtherAndSayHowFarApartTheyAre) {
   const std::vector<Link> links = links_of({straight_fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
                                             straight_fragment({0, 0, 0.05}, {0.15, 0, 0.05})},
                                            {});
-  ASSERT_THAT(links, SizeIs(1));
+  ASSERT_THAT(links, testing::Not(IsEmpty()));
+  for (const Link& other : links | std::views::drop(1)) EXPECT_LE(other.weight, 0);
   const Link& link = links.front();
   EXPECT_EQ(link.kind, LinkKind::chain_ends);
   EXPECT_EQ(link.fragment, 0U);
@@ -59,6 +61,26 @@ TEST(Links, AreWeighedAgainByOtherWeights) {
   near_only.weights.chain_ends = {5, 0, -1};  // above 0 where the gap is less than 5 radii
   for (const Link& link : weighed(links, near_only)) EXPECT_LT(link.gap, 5 * 0.0125);
   EXPECT_THAT(weighed(links, near_only), testing::Not(IsEmpty()));
+}
+
+// An end that looks back at the other one: no hose turns so sharply, but a bar may where that is hidden.
+TEST(Links, WeighNothingWhereOnlyABentTubeTurnsSoSharply) {
+  const std::vector<Fragment> pieces = {straight_fragment({-0.1, 0, 0.05}, {0, 0, 0.05}),
+                                        straight_fragment({0.04, 0.05, 0.05}, {-0.06, 0.06, 0.05})};
+  LinkSettings settings;
+  const RangeImage nothing_seen({}, camera_preset("paper"));
+  const auto between_near_ends = [&] {
+    std::vector<Link> links = find_links(pieces, nothing_seen, {}, settings);
+    std::erase_if(links, [](const Link& link) { return link.end != 1 || link.to.end != 0; });
+    return links;
+  };
+  const std::vector<Link> links = between_near_ends();
+  ASSERT_THAT(links, SizeIs(1));
+  EXPECT_LE(links.front().weight, 0);
+  EXPECT_GT(weight_where_bent(links.front(), settings), 0);
+  settings.bent_angles = 1;
+  EXPECT_EQ(weight_where_bent(links.front(), settings), links.front().weight);
+  EXPECT_THAT(between_near_ends(), IsEmpty());
 }
 
 // Pieces like a cloud of noise gives, any two of which may be neighbours. By gaps alone, only the nearest
