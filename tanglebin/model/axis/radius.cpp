@@ -18,6 +18,7 @@
 #include "tanglebin/model/axis/cylinder_fit.hpp"
 #include "tanglebin/model/axis/fragments/voxel.hpp"
 #include "tanglebin/model/scene/filter.hpp"
+#include "tanglebin/model/scene/known_scene.hpp"
 #include "tanglebin/model/scene/support_frame.hpp"
 
 namespace tanglebin {
@@ -34,11 +35,9 @@ std::string millimetres(double metres) {
 }
 
 void validate(const RadiusRange& range) {
-  constexpr double thinnest = 1e-4;
-  constexpr double thickest = 1;
-  if (!(range.min >= thinnest && range.min < range.max && range.max <= thickest))
+  if (!(range.min >= thinnest_radius && range.min < range.max && range.max <= thickest_radius))
     throw InputError({"", 0, "radius"}, fmt::format("{} to {} m", range.min, range.max),
-                     fmt::format("a range within {} to {} m", thinnest, thickest));
+                     fmt::format("a range within {} to {} m", thinnest_radius, thickest_radius));
 }
 
 /// A radius seen at a place.
