@@ -127,7 +127,7 @@ std::string entries_at_hand() {
 TEST_F(Benchmark, IsTheSameWithOneWorkerTwoWorkersTwoShardsAndAfterKills) {
   const std::string options = entries_at_hand() + "--method crash='sh " + path("crash.sh") +
                               " {cloud} {out.txt}' --method hang='sh " + path("hang.sh") +
-                              " {cloud} {out.txt}' --time-limit 10 --json";
+                              " {cloud} {out.txt}' --time-limit 20 --json";
   const ProgramResult one = experiment("one", options + " --jobs 1");
   EXPECT_EQ(one.status, 3) << one.err;
   const auto [rows, crashes] = rows_of("crash", "one");
@@ -136,13 +136,13 @@ TEST_F(Benchmark, IsTheSameWithOneWorkerTwoWorkersTwoShardsAndAfterKills) {
   EXPECT_THAT(crashes.begin()->first, HasSubstr("the command was ended by signal 11"));
   const std::map<std::string, int> hangs = rows_of("hang", "one").second;
   ASSERT_EQ(hangs.size(), 1U);
-  EXPECT_EQ(hangs.begin()->first, "the command took longer than 10 s");
+  EXPECT_EQ(hangs.begin()->first, "the command took longer than 20 s");
   EXPECT_LE(hangs.begin()->second, 2) << "of one cloud, at two ratios";
   for (const char* method : {"axis", "paper", "clusters", "regions", "dbscan"})
     EXPECT_TRUE(rows_of(method, "one").second.empty()) << method;
   EXPECT_EQ(nlohmann::json::parse(one.out).at("failed_runs"),
             crashes.begin()->second + hangs.begin()->second);
-  EXPECT_THAT(bytes_of(path("one/results.csv")), HasSubstr(",method,the command took longer than 10 s,0.0,"));
+  EXPECT_THAT(bytes_of(path("one/results.csv")), HasSubstr(",method,the command took longer than 20 s,0.0,"));
 
   EXPECT_EQ(experiment("two", options + " --jobs 2").status, 3);
   EXPECT_EQ(results_in("two"), results_in("one"));

@@ -192,12 +192,6 @@ ChosenLinks likeliest(const LinkCandidates& candidates) {
   return {.links = selection.taken(), .log_odds = selection.weight(), .shapes = {}};
 }
 
-// Those that are likelier to be true than not: they come first.
-std::vector<Link> likely(const std::vector<Link>& links) {
-  const auto unlikely = std::ranges::find_if(links, [](const Link& link) { return link.weight <= 0; });
-  return {links.begin(), unlikely};
-}
-
 /// Links with other weights, heaviest first.
 struct Reweighed {
   std::vector<Link> links;

@@ -64,12 +64,13 @@ std::vector<Chain> as_long_as(const TubeKind& kind, std::vector<Chain> chains) {
   return chains;
 }
 
-// The heaviest links between fragments that chains of the kind can have. Where there are thousands, nearly
-// all are between pieces of noise: the length is looked for with the first of them, in bounded time.
+// The links between fragments that are likely in any tube of the kind, bent or not: at a wrong length, there
+// is always a way to bend. Where there are thousands, nearly all are between pieces of noise: the length is
+// looked for with the first of them, in bounded time.
 std::vector<Link> links_to_try(const std::vector<Fragment>& fragments, const RangeImage& seen,
                                const TubeKind& kind, const LinkSettings& settings) {
   constexpr std::size_t most = 1000;
-  std::vector<Link> links = find_links(fragments, seen, kind, settings);
+  std::vector<Link> links = likely(find_links(fragments, seen, kind, settings));
   links.erase(links.begin() + static_cast<std::ptrdiff_t>(std::min(links.size(), most)), links.end());
   return links;
 }

@@ -365,6 +365,10 @@ double weight_where_bent(const Link& link, const LinkSettings& settings) {
   return link.weight - (1 - settings.bent_angles) * weight_of_angles(link, settings);
 }
 
+std::vector<Link> likely(const std::vector<Link>& links) {
+  return {links.begin(), std::ranges::find_if(links, [](const Link& link) { return link.weight <= 0; })};
+}
+
 std::vector<Link> weighed(std::vector<Link> links, const LinkSettings& settings) {
   for (Link& link : links) link.weight = weight_of(link, settings);
   std::erase_if(links, [&](const Link& link) { return greatest_weight(link, settings) <= 0; });

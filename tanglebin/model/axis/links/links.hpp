@@ -52,6 +52,9 @@ std::vector<Link> find_links(const std::vector<Fragment>& fragments, const Range
                              const TubeKind& kind, const LinkSettings& settings,
                              const std::vector<Ball>& others = {});
 
+/// Those of the links, heaviest first, that weigh more than 0.
+std::vector<Link> likely(const std::vector<Link>& links);
+
 /// The same links with the weights that these settings give them, heaviest first; without those that
 /// find_links() would not find by them.
 std::vector<Link> weighed(std::vector<Link> links, const LinkSettings& settings);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "tests/geometry/example_tubes.hpp"
 #include "tests/model/axis/fragments/straight_fragment.hpp"
@@ -29,8 +28,7 @@ TEST(Links, JoinEndsThatFaceEachOtherAndSayHowFarApartTheyAre) {
   const std::vector<Link> links = links_of({straight_fragment({-0.2, 0, 0.05}, {-0.05, 0, 0.05}),
                                             straight_fragment({0, 0, 0.05}, {0.15, 0, 0.05})},
                                            {});
-  ASSERT_THAT(links, testing::Not(IsEmpty()));
-  for (const Link& other : links | std::views::drop(1)) EXPECT_LE(other.weight, 0);
+  ASSERT_THAT(likely(links), SizeIs(1));
   const Link& link = links.front();
   EXPECT_EQ(link.kind, LinkKind::chain_ends);
   EXPECT_EQ(link.fragment, 0U);
@@ -78,6 +76,7 @@ TEST(Links, WeighNothingWhereOnlyABentTubeTurnsSoSharply) {
   ASSERT_THAT(links, SizeIs(1));
   EXPECT_LE(links.front().weight, 0);
   EXPECT_GT(weight_where_bent(links.front(), settings), 0);
+  EXPECT_THAT(likely(links), IsEmpty());
   settings.bent_angles = 1;
   EXPECT_EQ(weight_where_bent(links.front(), settings), links.front().weight);
   EXPECT_THAT(between_near_ends(), IsEmpty());
