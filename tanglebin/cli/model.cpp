@@ -91,22 +91,19 @@ ModelSettings model_settings(const ModelArguments& arguments, const Profile& pro
   return settings;
 }
 
-std::vector<NamedPicture> pictures_of(const Seen& seen, const PaperModel& steps, const std::string& name) {
-  return pictures_of_steps(seen.cloud, steps, seen.known.support, seen.known.kinds[0].radius, name);
+std::vector<NamedPicture> pictures_of(const MethodRun& run, const PaperModel& steps,
+                                      const std::string& name) {
+  return pictures_of_steps(run.cloud, steps, run.known.support, run.known.kinds[0].radius, name);
 }
 
-std::vector<NamedPicture> pictures_of(const Seen& seen, const AxisModel& steps, const std::string& name) {
-  return pictures_of_steps(seen.cloud, steps, seen.known.support, name);
+std::vector<NamedPicture> pictures_of(const MethodRun& run, const AxisModel& steps, const std::string& name) {
+  return pictures_of_steps(run.cloud, steps, run.known.support, name);
 }
 
-void write_pictures(const ModelWithSteps& modelled, const ModelArguments& arguments) {
-  make_directories(*arguments.debug_directory);
-  const auto pictures = std::visit(
-      [&](const auto& steps) { return pictures_of(modelled.seen, steps, arguments.cloud); }, modelled.steps);
-  for (const auto& [name, picture] : pictures) {
-    write_file(std::filesystem::path(*arguments.debug_directory) / (name + ".png"),
-               color_png(picture.width, picture.height, picture.pixels));
-  }
+void write_pictures(const std::vector<NamedPicture>& pictures, const std::filesystem::path& directory) {
+  make_directories(directory);
+  for (const auto& [name, picture] : pictures)
+    write_file(directory / (name + ".png"), color_png(picture.width, picture.height, picture.pixels));
 }
 
 std::vector<Output> outputs(const ModelArguments& arguments) {
@@ -138,13 +135,18 @@ void model_cloud(const ModelArguments& arguments) {
   print_notes(resolved.notes);
   print_doubts(profile, resolved.known, arguments.model.profile);
   with_option("--method", "method", [&] { validate(resolved.known, settings); });
-  const ModelWithSteps modelled =
-      with_file(arguments.cloud, [&] { return model_with_steps(resolved.cloud, resolved.known, settings); });
-  const Model& model = modelled.model;
+  std::vector<NamedPicture> pictures;
+  const auto draw = [&](const MethodRun& run) {
+    if (!arguments.debug_directory) return;
+    pictures =
+        std::visit([&](const auto& steps) { return pictures_of(run, steps, arguments.cloud); }, run.steps);
+  };
+  const Model model = with_file(
+      arguments.cloud, [&] { return model_with_steps(resolved.cloud, resolved.known, settings, draw); });
   std::vector<std::pair<std::string, std::string>> files = contents(arguments.files, model);
   files.emplace_back(arguments.out, cloud_bytes(measured.cloud, model, arguments.out));
   write_outputs(files);
-  if (arguments.debug_directory) write_pictures(modelled, arguments);
+  if (arguments.debug_directory) write_pictures(pictures, *arguments.debug_directory);
   if (!take_standard_output(outputs(arguments))) print_summary(arguments, resolved, model);
   print_findings(model, arguments.cloud);
   expect_usable(model);

@@ -2,11 +2,8 @@
 
 #include <fmt/core.h>
 
-#include <utility>
-
 #include "tanglebin/base/error.hpp"
 #include "tanglebin/base/text.hpp"
-#include "tanglebin/model/diagnose.hpp"
 #include "tanglebin/model/model_with_steps.hpp"
 #include "tanglebin/model/paper/paper_method.hpp"
 
@@ -52,18 +49,8 @@ void validate(const KnownScene& known, const ModelSettings& settings) {
 
 Model model_tubes(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings,
                   const std::function<void()>& at_step) {
-  validate(known, settings);
-  Model model;
-  if (is_in_support_frame(known)) {
-    MethodSteps steps = steps_of(cloud, known, settings, at_step);
-    model = std::move(model_of(steps));
-  } else {
-    const Seen seen = in_support_frame(cloud, known);
-    MethodSteps steps = steps_of(seen.cloud, seen.known, settings, at_step);
-    model = in_world_frame(std::move(model_of(steps)), known);
-  }
-  model.findings = diagnose(cloud, known, model, settings.ratio);
-  return model;
+  return model_with_steps(
+      cloud, known, settings, [](const MethodRun&) {}, at_step);
 }
 
 }  // namespace tanglebin

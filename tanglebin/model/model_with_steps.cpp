@@ -1,10 +1,16 @@
 #include "tanglebin/model/model_with_steps.hpp"
 
+#include <optional>
+#include <utility>
+
 #include "tanglebin/model/diagnose.hpp"
 #include "tanglebin/model/point_counts.hpp"
+#include "tanglebin/model/scene/support_frame.hpp"
 
 namespace tanglebin {
 namespace {
+
+using MethodSteps = std::variant<PaperModel, AxisModel>;
 
 const FilterSettings& filter_of(const ModelSettings& settings) {
   return settings.method == Method::paper ? settings.paper.filter : settings.axis.filter;
@@ -17,27 +23,34 @@ MethodSteps run_method(const PointCloud& cloud, const KnownScene& known, const M
   return model_by_axes(cloud, known, ratio, seed, axis, at_step);
 }
 
-}  // namespace
-
-MethodSteps steps_of(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings,
-                     const std::function<void()>& at_step) {
-  MethodSteps steps = run_method(cloud, known, settings, at_step);
-  count_points(model_of(steps), cloud, known, filter_of(settings));
-  return steps;
-}
-
 Model& model_of(MethodSteps& steps) {
   return std::visit([](auto& of_method) -> Model& { return of_method.model; }, steps);
 }
 
-ModelWithSteps model_with_steps(const PointCloud& cloud, const KnownScene& known,
-                                const ModelSettings& settings, const std::function<void()>& at_step) {
+Model model_in_support_frame(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings,
+                             const std::function<void(const MethodRun&)>& show,
+                             const std::function<void()>& at_step) {
+  MethodSteps steps = run_method(cloud, known, settings, at_step);
+  count_points(model_of(steps), cloud, known, filter_of(settings));
+  show({cloud, known, steps});
+  return std::move(model_of(steps));
+}
+
+}  // namespace
+
+Model model_with_steps(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings,
+                       const std::function<void(const MethodRun&)>& show,
+                       const std::function<void()>& at_step) {
   validate(known, settings);
-  ModelWithSteps result{.seen = in_support_frame(cloud, known)};
-  result.steps = steps_of(result.seen.cloud, result.seen.known, settings, at_step);
-  result.model = in_world_frame(model_of(result.steps), known);
-  result.model.findings = diagnose(cloud, known, result.model, settings.ratio);
-  return result;
+  Model model;
+  if (is_in_support_frame(known)) {
+    model = model_in_support_frame(cloud, known, settings, show, at_step);
+  } else {
+    const Seen seen = in_support_frame(cloud, known);
+    model = in_world_frame(model_in_support_frame(seen.cloud, seen.known, settings, show, at_step), known);
+  }
+  model.findings = diagnose(cloud, known, model, settings.ratio);
+  return model;
 }
 
 }  // namespace tanglebin

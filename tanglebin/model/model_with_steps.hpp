@@ -9,32 +9,20 @@
 #include "tanglebin/model/paper/paper_method.hpp"
 #include "tanglebin/model/scene/known_scene.hpp"
 #include "tanglebin/model/scene/model.hpp"
-#include "tanglebin/model/scene/support_frame.hpp"
 
 namespace tanglebin {
 
-/// The results of a method's steps, in the support's frame.
-using MethodSteps = std::variant<PaperModel, AxisModel>;
-
-/// Runs the method of the settings, which must be valid, on a scan in the support's frame. `at_step` is
-/// called after each step.
-MethodSteps steps_of(const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings,
-                     const std::function<void()>& at_step);
-
-/// The model that the steps made, in the support's frame.
-Model& model_of(MethodSteps& steps);
-
-/// A model, and how the method came to it.
-struct ModelWithSteps {
-  Model model{};        ///< in the world frame
-  Seen seen{};          ///< what the method worked on, in the support's frame
-  MethodSteps steps{};  ///< in the support's frame
+/// What a method worked on and the results of its steps, all in the support's frame.
+struct MethodRun {
+  const PointCloud& cloud;
+  const KnownScene& known;
+  const std::variant<PaperModel, AxisModel>& steps;
 };
 
-/// The same as model_tubes(), with the results of the steps, for which it copies the cloud's points and the
-/// model.
-ModelWithSteps model_with_steps(
-    const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings = {},
-    const std::function<void()>& at_step = [] {});
+/// The same as model_tubes(), and calls `show` with the method's run before the model moves into the world
+/// frame.
+Model model_with_steps(
+    const PointCloud& cloud, const KnownScene& known, const ModelSettings& settings,
+    const std::function<void(const MethodRun&)>& show, const std::function<void()>& at_step = [] {});
 
 }  // namespace tanglebin
