@@ -85,6 +85,23 @@ std::vector<Link> possible_links(double length, const std::vector<Fragment>& fra
   return links;
 }
 
+// How many of the chains, at most, are alike. Two tubes that are taken for one are as long as another by
+// chance, but seldom to within a few percent.
+std::size_t most_alike(const std::vector<Chain>& chains) {
+  constexpr double alike = 1.03;
+  std::vector<double> lengths;
+  lengths.reserve(chains.size());
+  for (const Chain& chain : chains) lengths.push_back(chain.length);
+  std::ranges::sort(lengths);
+  std::size_t most = 0;
+  std::size_t first = 0;
+  for (std::size_t last = 0; last < lengths.size(); ++last) {
+    while (lengths[last] > alike * lengths[first]) ++first;
+    most = std::max(most, last + 1 - first);
+  }
+  return most;
+}
+
 /// A length that was tried as though it had been told.
 struct Trial {
   double length;       ///< m; of the longest of the chains that have it
@@ -102,10 +119,12 @@ Trial trial_of(const TubeKind& kind, const std::vector<Fragment>& fragments, std
   const ChosenLinks chosen = choose_links(fragments, links, kind, settings, seen);
   const std::vector<Chain> chains =
       as_long_as(kind, chains_of(fragments, links, chosen.links, kind.radius, seen));
+  const bool is_range = kind.length_min < kind.length();
+  const auto agreeing = static_cast<double>(is_range ? chains.size() : most_alike(chains));
   const double prior = settings.chain_prior * static_cast<double>(chosen.links.size());
   return {.length = chains.empty() ? length : std::ranges::max(chains, {}, &Chain::length).length,
           .chains = chains.size(),
-          .evidence = chosen.log_odds - prior + of_a_chain * static_cast<double>(chains.size()),
+          .evidence = chosen.log_odds - prior + of_a_chain * agreeing,
           .prior = prior};
 }
 

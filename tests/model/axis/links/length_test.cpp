@@ -129,6 +129,18 @@ TEST(WithLength, IsThatOfTubesLongerThanAnyPieceThatIsSeen) {
   EXPECT_EQ(found.model.tubes.size(), 5U);
 }
 
+// Three are as long as each other. Four are as long as each other to within 7 %, as two that are taken for
+// one may be.
+TEST(WithLength, IsThatOfTubesThatAreAlike) {
+  std::vector<Tube> tubes;
+  for (const double length : {0.347, 0.347, 0.372, 0.372, 0.4, 0.4, 0.4}) {
+    const double y = -0.15 + 0.05 * static_cast<double>(tubes.size());
+    tubes.push_back(test::chain(static_cast<int>(tubes.size()) + 1, 0.0125,
+                                {{-0.2, y, 0.0125}, {length - 0.2, y, 0.0125}}));
+  }
+  EXPECT_NEAR(modelled_with(tubes, 0, infinite).kinds[0].kind.length(), 0.4, 0.005);
+}
+
 // One tube of which the scanner lost nine short pieces: its longest piece is a tenth of it.
 TEST(WithLength, IsThatOfATubeTornIntoManyPieces) {
   PointCloud cloud = test::scanned({test::chain(1, 0.0125, {{-0.25, 0, 0.0125}, {0.25, 0, 0.0125}})});
