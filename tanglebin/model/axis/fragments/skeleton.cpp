@@ -26,11 +26,10 @@ using Eigen::Vector3i;
 struct Voxel {
   Vector3i key;
   Vector3d sum = Vector3d::Zero();      // of its points
+  Vector3d mean = Vector3d::Zero();     // of its points
   Vector3d normals = Vector3d::Zero();  // sum of their normals
   std::size_t points = 0;
   std::vector<std::size_t> neighbours{};  // touching voxels
-
-  Vector3d mean() const { return sum / static_cast<double>(points); }
 };
 
 // One of each pair of opposite neighbours of a voxel.
@@ -48,10 +47,13 @@ std::array<Vector3i, 13> half_of_the_neighbours() {
 }
 
 struct VoxelGrid {
-  double size;  // m, of a voxel
+  double size;      // m, of a voxel
+  Vector3d origin;  // m, a corner of the voxel (0, 0, 0)
   std::vector<Voxel> voxels{};
   std::unordered_map<std::uint64_t, std::size_t> at{};  // by voxel_key()
   std::vector<std::size_t> of_points{};  // for each point its voxel; no_index if the point is not finite
+
+  Vector3i key_at(const Vector3d& position) const { return voxel_at(position - origin, size); }
 
   std::size_t find(const Vector3i& key) const {
     const auto found = at.find(voxel_key(key));
@@ -61,13 +63,14 @@ struct VoxelGrid {
 
 VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
                       double size, double shift) {
-  const Vector3d origin = Vector3d::Constant(shift * size);
-  VoxelGrid grid{.size = size, .of_points = std::vector(points.size(), no_index)};
+  VoxelGrid grid{.size = size,
+                 .origin = Vector3d::Constant(shift * size),
+                 .of_points = std::vector(points.size(), no_index)};
   std::size_t last = no_index;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) continue;
     const Vector3d point = points[i].cast<double>();
-    const Vector3i key = voxel_at(point - origin, size);
+    const Vector3i key = grid.key_at(point);
     // Most often, the next point is in the same voxel.
     if (last == no_index || grid.voxels[last].key != key) {
       const auto [found, is_new] = grid.at.try_emplace(voxel_key(key), grid.voxels.size());
@@ -80,6 +83,7 @@ VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, const std::vec
     ++voxel.points;
     grid.of_points[i] = last;
   }
+  for (Voxel& voxel : grid.voxels) voxel.mean = voxel.sum / static_cast<double>(voxel.points);
   const auto offsets = half_of_the_neighbours();
   for (std::size_t i = 0; i < grid.voxels.size(); ++i) {
     for (const Vector3i& offset : offsets) {
@@ -122,6 +126,29 @@ std::vector<std::vector<std::size_t>> connected_components(const std::vector<Vox
   return components;
 }
 
+/// The nodes of a skeleton sorted by x, to look only at those beside a place.
+class SortedNodes {
+public:
+  explicit SortedNodes(const std::vector<Vector3d>& nodes) : nodes_(nodes), by_x_(nodes.size()) {
+    std::iota(by_x_.begin(), by_x_.end(), std::size_t{0});
+    std::ranges::sort(by_x_, {}, [&](std::size_t node) { return nodes_[node].x(); });
+  }
+
+  /// Whether there is a node for which `counts` holds within the reach (m) of a place.
+  bool any_within(double reach, const Vector3d& place, const auto& counts) const {
+    const auto x_of = [&](std::size_t node) { return nodes_[node].x(); };
+    for (auto node = std::ranges::lower_bound(by_x_, place.x() - reach, {}, x_of);
+         node != by_x_.end() && x_of(*node) <= place.x() + reach; ++node) {
+      if (counts(*node) && (nodes_[*node] - place).norm() <= reach) return true;
+    }
+    return false;
+  }
+
+private:
+  const std::vector<Vector3d>& nodes_;
+  std::vector<std::size_t> by_x_;
+};
+
 /// Lays a tree along each connected component of the voxels.
 class TreeMaker {
 public:
@@ -159,7 +186,7 @@ private:
       queue.pop();
       if (distance > distances_[voxel]) continue;
       for (const std::size_t neighbour : voxels_[voxel].neighbours) {
-        const double through = distance + (voxels_[neighbour].mean() - voxels_[voxel].mean()).norm();
+        const double through = distance + (voxels_[neighbour].mean - voxels_[voxel].mean).norm();
         if (through >= distances_[neighbour]) continue;
         distances_[neighbour] = through;
         queue.push({through, neighbour});
@@ -205,6 +232,7 @@ class Pruner {
 public:
   Pruner(const Skeleton& whole, double branch_min)
       : whole_(whole),
+        sorted_(whole.nodes),
         branch_min_(branch_min),
         below_(whole.nodes.size(), 0),
         next_(whole.nodes.size(), no_index),
@@ -269,10 +297,7 @@ private:
   }
 
   bool is_apart(std::size_t tip) const {
-    for (std::size_t node = 0; node < whole_.nodes.size(); ++node) {
-      if (kept_[node] && (whole_.nodes[tip] - whole_.nodes[node]).norm() <= branch_min_) return false;
-    }
-    return true;
+    return !sorted_.any_within(branch_min_, whole_.nodes[tip], [&](std::size_t node) { return kept_[node]; });
   }
 
   // Keeps the longest path from a node down to a tip.
@@ -281,6 +306,7 @@ private:
   }
 
   const Skeleton& whole_;
+  SortedNodes sorted_;
   double branch_min_;
   std::vector<double> below_;      // m, the longest path down from each node
   std::vector<std::size_t> next_;  // first node of that path; no_index at a tip
@@ -301,7 +327,7 @@ Votes votes_in(const std::vector<Voxel>& grid, const std::vector<std::size_t>& v
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
   for (const std::size_t i : voxels) {
     const auto count = static_cast<double>(grid[i].points);
-    const Vector3d mean = grid[i].mean();
+    const Vector3d mean = grid[i].mean;
     votes.count += count;
     votes.mean += count * mean;
     votes.normal += grid[i].normals;
@@ -347,7 +373,7 @@ private:
   bool goes_on(const Votes& disc) const {
     constexpr double share_max = 0.2;  // of the disc's votes
     constexpr double reach = 2.2;      // radii
-    const Vector3i middle = voxel_at(disc.mean, grid_.size);
+    const Vector3i middle = grid_.key_at(disc.mean);
     const int steps = static_cast<int>(std::ceil(reach * radius_ / grid_.size));
     double beyond = 0;
     for (int x = -steps; x <= steps; ++x) {
@@ -366,7 +392,7 @@ private:
     constexpr double rim = 1.1;  // radii
     constexpr double height_max = 0.3;
     constexpr double parallel_min = 0.95;
-    const Vector3d way = voxel.mean() - disc.mean;
+    const Vector3d way = voxel.mean - disc.mean;
     const double height = way.dot(disc.normal);
     return std::abs(height) < height_max * radius_ && (way - height * disc.normal).norm() > rim * radius_ &&
            voxel.normals.dot(disc.normal) > parallel_min * static_cast<double>(voxel.points);
@@ -473,15 +499,13 @@ private:
   // Nearly all votes are near the skeleton, which has branches only if tubes have.
   bool looks_like_a_tube(const Skeleton& skeleton, const std::vector<std::size_t>& component) const {
     if (!settings_.may_branch && has_branches(skeleton)) return false;
+    const SortedNodes nodes(skeleton.nodes);
     std::size_t near = 0;
     std::size_t all = 0;
     for (const std::size_t member : component) {
       const Voxel& voxel = grid_.voxels[member];
       all += voxel.points;
-      const Vector3d mean = voxel.mean();
-      if (std::ranges::any_of(skeleton.nodes, [&](const Vector3d& node) {
-            return (node - mean).norm() < settings_.spread_max;
-          }))
+      if (nodes.any_within(settings_.spread_max, voxel.mean, [](std::size_t) { return true; }))
         near += voxel.points;
     }
     return static_cast<double>(near) >= settings_.share_min * static_cast<double>(all);
