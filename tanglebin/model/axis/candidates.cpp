@@ -37,16 +37,24 @@ bool is_false_speck(const AxisSteps& steps, const std::vector<std::size_t>& memb
   return unseen_length(length, hidden, steps.kind, settings) > 0;
 }
 
+// A tube that is seen end-on looks like a ball, too, but then its length must be known to say so.
+bool is_ball(const Tube& tube, const TubeKind& kind) {
+  return kind.length_min == 0 && total_length(tube) < tube.radius;
+}
+
 // The surface is a tube's, as far as one tube can tell. On two sides of a box, the distances from the axis
 // go with twice the angle; on a wall that is seen from its edge, nothing faces the sensor.
 bool looks_like_a_tube(const TubeSurface& surface, const Support& support) {
   constexpr double ovality_max = 0.3;
   constexpr double facing_min = 0.3;
   if (surface.ovality > ovality_max || surface.facing < facing_min) return false;
-  if (!surface.roundness) return support.shape != Support::Shape::nothing;
+  const bool is_support_known = support.shape != Support::Shape::nothing;
+  if (!surface.roundness) return is_support_known;
   constexpr double least = 0.6;
   constexpr double most = 1.6;
-  return *surface.roundness >= least && *surface.roundness <= most;
+  // Floors and walls that are not known as such show a little roundness, too: noise.
+  const double of_a_tube = is_support_known ? surface.roundness_of_a_tube : 1;
+  return *surface.roundness >= least * of_a_tube && *surface.roundness <= most;
 }
 
 // m, of the tube that the point in the middle is on: by how much points scatter about a tube here.
@@ -144,6 +152,7 @@ std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vec
     if (is_false_speck(steps, members, usual, settings.link)) continue;
     Tube tube =
         fit_tube(steps.fragments, members, steps.links, steps.chosen, points, steps.kind, settings.fit);
+    if (is_ball(tube, steps.kind)) continue;
     std::optional<TubeSurface> surface;
     if (!holds_only_tubes(known.support))
       surface = surface_of(tube, steps.fragments, members, points, steps.votes, known.camera);

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
+#include "tanglebin/model/axis/axis_method.hpp"
 #include "tests/model/scene/scanned.hpp"
 
 namespace tanglebin {
@@ -115,6 +117,37 @@ TEST(Candidates, AreNoTubeInABinWithAMarginIfTheyAreNotRound) {
     drop_what_is_no_tube(of_kinds, {.shape = Support::Shape::bin, .margin = margin});
     EXPECT_EQ(of_kinds[0].size(), margin > 0 ? 1U : 2U);
   }
+}
+
+// Of a shiny bar, a narrow strip is seen: normals that are means over their neighbours hardly turn on it. A
+// piece of a floor that is not known as such looks like that, too.
+TEST(Candidates, MayShowAsLittleRoundnessAsANarrowStripCan) {
+  for (const auto shape : {Support::Shape::plane, Support::Shape::nothing}) {
+    std::vector<std::vector<TubeCandidate>> of_kinds(1);
+    of_kinds[0].push_back(that_scatters_by(0));
+    of_kinds[0].front().surface->roundness = 0.4;
+    of_kinds[0].push_back(of_kinds[0].front());
+    of_kinds[0].back().surface->roundness_of_a_tube = 0.5;
+    drop_what_is_no_tube(of_kinds, {.shape = shape});
+    EXPECT_EQ(of_kinds[0].size(), shape == Support::Shape::plane ? 1U : 0U);
+  }
+}
+
+// How many tubes are found of one that lies in the bin and a ball of its radius, if their length is as told,
+// m.
+std::size_t tubes_beside_a_ball(double length_min, double length) {
+  KnownScene known = test::paper_scene();
+  known.kinds[0].segments[0].length = length;
+  known.kinds[0].length_min = length_min;
+  const std::vector<Tube> tubes = {test::straight_tube(1, 0),
+                                   test::chain(2, test::radius, {{0, 0.1, 0.0125}, {1e-4, 0.1, 0.0125}})};
+  return model_by_axes(test::scanned(tubes), known, 1, 0).model.tubes.size();
+}
+
+TEST(Candidates, AreNoTubeIfTheyAreABall) {
+  EXPECT_EQ(tubes_beside_a_ball(0, std::numeric_limits<double>::infinity()), 1U);
+  EXPECT_EQ(tubes_beside_a_ball(0, 0.5), 1U);
+  EXPECT_EQ(tubes_beside_a_ball(0.5, 0.5), 1U);
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ AxisVotes vote_for_axes(std::vector<Vector3f> points, const Support& support, co
   const PixelGrid grid(without_floor(std::move(points), support, settings.floor_margin * radius), camera);
   const PatchSampling sampling = suitable_sampling(grid, radius, settings.patch);
   const auto [reach, stride] = sampling;
+  result.reach = reach;
   const std::vector<std::optional<Patch>> patches = surface_patches(grid, sampling, radius, settings.patch);
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (!patches[i]) continue;

@@ -13,6 +13,7 @@ namespace tanglebin {
 struct AxisVotes {
   std::vector<Eigen::Vector3f> votes;    ///< m, a point on the axis
   std::vector<Eigen::Vector3f> normals;  ///< unit, of the surface, towards the sensor
+  float reach = 0;                       ///< m, from a point to those from which its normal comes
 };
 
 /// Each point votes for the point one radius (m) inwards along its surface normal, which lies on its tube's

@@ -118,8 +118,25 @@ double ovality_of(const std::vector<Place>& places, double radius) {
   return 1 - left_after(terms, distances) / left;
 }
 
-// The slope of the second angle over the first, within the fragments: these may be on different surfaces.
-std::optional<double> slope_of(const std::vector<Angles>& of_fragments) {
+// By how much the normals of a tube turn, as a share of what they would without a reach, rad, over which they
+// are means. Of an arc of ± `arc`, rad, each normal is that of the middle of what lies in its reach.
+double smoothed_slope(double arc, double reach) {
+  const double cut = std::min(1 - reach / arc, 1.0);  // from here on, the arc's end cuts the reach
+  if (cut <= -1) return 0;
+  const double whole = cut > 0 ? std::pow(cut, 3) : 0;
+  const double inner = std::abs(cut);
+  return whole + (1 - std::pow(inner, 3)) / 2 + 3 * cut * (1 - inner * inner) / 4;
+}
+
+/// By how much normals turn with the angle around the axis.
+struct Turning {
+  std::optional<double> slope{};
+  double of_a_tube = 1;
+};
+
+// The slope of the second angle over the first, within the fragments: these may be on different surfaces. The
+// normals are means over a reach, rad.
+Turning turning_of(const std::vector<Angles>& of_fragments, double reach) {
   double count = 0;
   double variance = 0;
   double covariance = 0;
@@ -130,8 +147,8 @@ std::optional<double> slope_of(const std::vector<Angles>& of_fragments) {
     covariance += angles.products - angles.first * angles.second / angles.count;
   }
   constexpr double arc_min = 0.2;  // rad, standard deviation
-  if (variance < arc_min * arc_min * count) return std::nullopt;
-  return covariance / variance;
+  if (variance < arc_min * arc_min * count) return {};
+  return {covariance / variance, smoothed_slope(std::sqrt(3 * variance / count), reach)};
 }
 
 }  // namespace
@@ -156,7 +173,8 @@ TubeSurface surface_of(const Tube& tube, const std::vector<Fragment>& fragments,
   const double middle = median_of(places, &Place::distance);
   const double scatter = scatter_about(middle, places);
   const double facing = median_of(places, &Place::facing);
-  return {slope_of(angles), scatter,
+  const Turning turning = turning_of(angles, votes.reach / tube.radius);
+  return {turning.slope, turning.of_a_tube, scatter,
           ovality_of(without_outliers(std::move(places), middle, scatter), tube.radius), facing};
 }
 

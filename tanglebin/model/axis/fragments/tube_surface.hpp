@@ -19,6 +19,9 @@ struct TubeSurface {
   /// thinner one, less on a thicker one, 0 on a plane, such as the rim of a bin. None if too little of the
   /// circumference is seen to tell.
   std::optional<double> roundness{};
+  /// The roundness that a tube of this radius would show. It is less than 1 where little of the circumference
+  /// is seen, since normals are means over their neighbours.
+  double roundness_of_a_tube = 1;
   /// m, the median of how much the distances of its points from the axis differ from their median: noise on
   /// a tube, also if its radius is not quite right; more on anything else, such as the edge of a box.
   double scatter = 0;
