@@ -66,6 +66,7 @@ public:
       doubt_lengths();
       doubt_sensor();
     }
+    doubt_pieces();
     doubt_unexplained();
     doubt_view();
     std::ranges::move(doubts_of_camera(cloud_, known_, model_), std::back_inserter(findings_));
@@ -349,6 +350,18 @@ private:
                                 "{:.0f} % is too much to "
                                 "tell tubes apart safely: is the sensor that noisy, or the radius wrong?",
                                 rounded_up(100 * *noise), 100 * noise_max));
+  }
+
+  void doubt_pieces() {
+    if (model_.pieces_left_out == 0) return;
+    const bool has_support = known_.support.shape != Support::Shape::nothing;
+    warn("pieces",
+         fmt::format(
+             "{} pieces that may be tubes of radius {} were left out, the smallest: there are too many "
+             "to compare, and most must be noise. {}",
+             model_.pieces_left_out, radii(),
+             has_support ? "Is the radius right?"
+                         : "Is the radius right? Give [support]: what is on it is not looked at"));
   }
 
   // Where no support is known, floor and walls are on no tube either.

@@ -387,5 +387,17 @@ TEST(Diagnose, WarnsOfNoise) {
   EXPECT_THAT(text_of(model_of(view).findings), HasSubstr("scatter"));
 }
 
+// Where nothing is known of a support, noise on a floor may fall into thousands of pieces.
+TEST(Diagnose, SaysThatThereAreTooManyPieces) {
+  const View view = right_view();
+  Model model = model_of(view);
+  model.pieces_left_out = 12'000;
+  EXPECT_THAT(text_of(diagnose(view.cloud, view.scene, model, 1)),
+              testing::AllOf(HasSubstr("warning pieces: 12000 pieces"), Not(HasSubstr("[support]"))));
+  KnownScene nothing_known = view.scene;
+  nothing_known.support.shape = Support::Shape::nothing;
+  EXPECT_THAT(text_of(diagnose(view.cloud, nothing_known, model, 1)), HasSubstr("Give [support]"));
+}
+
 }  // namespace
 }  // namespace tanglebin

@@ -201,6 +201,10 @@ bool drop_beside(const Support& support, AxisSteps& steps) {
   return std::erase_if(steps.fragments, [&](const Fragment&) { return is_beside[number++]; }) > 0;
 }
 
+// Of a kind. A heap of sixty tubes has some 500. Where there are more than this, nearly all are noise, and to
+// compare each with all others would take minutes.
+constexpr std::size_t pieces_max = 3000;
+
 // The steps from votes to labels. The grid of voxels that the votes are sorted into is moved by `shift`;
 // `tries` were made before, with other shifts.
 AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& scan,
@@ -217,6 +221,7 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
     const TubeKind& kind = known.kinds[i];
     result.kinds[i].fragments =
         find_fragments(result.kinds[i].votes, kind.radius, kind.branches(), settings.fragment, shift);
+    model.pieces_left_out += keep_largest(result.kinds[i].fragments, pieces_max);
   }
   clock.end_step("fragment", total(result.kinds, [](const auto& steps) { return steps.fragments.size(); }),
                  "fragments");

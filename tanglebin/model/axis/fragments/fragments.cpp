@@ -243,6 +243,15 @@ std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool
   return fragments;
 }
 
+std::size_t keep_largest(std::vector<Fragment>& fragments, std::size_t most) {
+  if (fragments.size() <= most) return 0;
+  const std::size_t dropped = fragments.size() - most;
+  std::ranges::stable_sort(fragments, std::greater<>(),
+                           [](const Fragment& fragment) { return fragment.points.size(); });
+  fragments.erase(fragments.end() - static_cast<std::ptrdiff_t>(dropped), fragments.end());
+  return dropped;
+}
+
 bool cut_at(std::vector<Fragment>& fragments, std::size_t which, std::size_t node, const AxisVotes& votes,
             double radius, const FragmentSettings& settings) {
   const Fragment& fragment = fragments[which];

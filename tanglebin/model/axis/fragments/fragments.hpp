@@ -40,6 +40,9 @@ double points_on_a_radius(const std::vector<Fragment>& fragments, double radius)
 std::vector<Fragment> find_fragments(const AxisVotes& votes, double radius, bool with_branches,
                                      const FragmentSettings& settings, double shift = 0);
 
+/// Keeps the fragments with the most points where there are more than so many. Returns how many it drops.
+std::size_t keep_largest(std::vector<Fragment>& fragments, std::size_t most);
+
 /// Cuts a fragment without branches at a node, whose points are left out. The second part is appended.
 /// Returns false, and leaves the fragment whole, if a part has too few points to be a fragment.
 bool cut_at(std::vector<Fragment>& fragments, std::size_t which, std::size_t node, const AxisVotes& votes,

@@ -13,6 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
+using testing::Each;
+using testing::Field;
+using testing::Ge;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -249,6 +252,19 @@ TEST(Fragments, OfAHandfulOfVotesAreNone) {
   }
   EXPECT_THAT(fragments_of(votes), IsEmpty());
   EXPECT_THAT(fragments_of({}), IsEmpty());
+}
+
+TEST(Fragments, AreTheLargestWhereThereAreTooMany) {
+  std::vector<Fragment> fragments;
+  for (const std::size_t points : {5U, 9U, 7U, 9U, 6U}) {
+    fragments.push_back({.points = {}, .nodes = {}, .parents = {}, .ends = {}, .length = 0});
+    fragments.back().points.resize(points);
+  }
+  EXPECT_EQ(keep_largest(fragments, 5), 0U);
+  EXPECT_THAT(fragments, SizeIs(5));
+  EXPECT_EQ(keep_largest(fragments, 3), 2U);
+  EXPECT_THAT(fragments, Each(Field(&Fragment::points, SizeIs(Ge(7U)))));
+  EXPECT_THAT(fragments, SizeIs(3));
 }
 
 }  // namespace
