@@ -311,8 +311,10 @@ private:
     constexpr std::size_t share = 5;
     if (known_.support.shape == Support::Shape::nothing) return;
     if (model_.tubes.empty() || share * counts_.unexplained <= kept()) return;
+    const char* others = ": are there other things, or tubes of another radius, to be declared as [[tube]]?";
     warn("unexplained",
-         fmt::format("{} of the points looked at are on no tube", percent(counts_.unexplained, kept())));
+         fmt::format("{} of the points looked at are on no tube{}", percent(counts_.unexplained, kept()),
+                     model_.foreign_radii.empty() ? others : ""));
   }
 
   void doubt_view() {

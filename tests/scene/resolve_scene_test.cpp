@@ -298,6 +298,19 @@ TEST_F(ToldScene, PointsWhereTheSensorIsWereNotMeasured) {
   EXPECT_EQ(std::ranges::count_if(resolved.cloud.points, is_zero), 0);
 }
 
+// Of tubes of 1.25 mm, it might find another radius, or none.
+TEST_F(ToldScene, SaysWhichRadiiWereLookedFor) {
+  Scene scene = with_camera({.intrinsics = intrinsics_of(camera()), .unit = 1});
+  scene.support.reset();
+  scene.tubes.clear();
+  const PointCloud tiny = moved(in_camera_frame(cloud()), Eigen::Affine3d(Eigen::Scaling(0.1)));
+  EXPECT_THAT(
+      complaint([&] { resolve(scene, tiny); }),
+      HasSubstr(
+          "; give the radius; only radii of 2 to 60 mm were looked for: for others, radius = { min, max "
+          "} in [[tube]]"));
+}
+
 TEST_F(ToldScene, ARadiusThatTheCloudDoesNotShowIsRefused) {
   Scene scene = with_camera(whole_camera());
   for (const LengthRange& other : {LengthRange{0.004, 0.01}, LengthRange{0.014, 0.03}}) {
