@@ -13,6 +13,7 @@
 #include "tanglebin/base/median.hpp"
 #include "tanglebin/base/stride.hpp"
 #include "tanglebin/model/axis/radius.hpp"
+#include "tanglebin/model/length_check.hpp"
 #include "tanglebin/model/remedy.hpp"
 #include "tanglebin/model/scene/support_frame.hpp"
 #include "tanglebin/model/view_check.hpp"
@@ -63,7 +64,7 @@ public:
     if (!model_.tubes.empty()) {
       doubt_radius();
       doubt_foreign();
-      doubt_lengths();
+      std::ranges::move(doubts_of_lengths(known_, model_), std::back_inserter(findings_));
       doubt_sensor();
     }
     doubt_pieces();
@@ -285,52 +286,6 @@ private:
                      is_one ? "Is it a foreign part, or" : "Are they foreign parts, or"));
   }
 
-  bool is_at_border(const Eigen::Vector3d& position, double radius) const {
-    constexpr double near = 2;  // radii
-    const Camera& camera = known_.camera;
-    const auto at = project(camera, position);
-    if (!at) return true;
-    const double margin = near * radius * camera.fx / depth_of(camera, position);
-    return at->x() < margin || at->x() > camera.width - 1 - margin || at->y() < margin ||
-           at->y() > camera.height - 1 - margin;
-  }
-
-  // Where a tube ends at the image's border, it may go on.
-  bool may_go_on(const Tube& tube) const {
-    std::vector<int> edges(tube.nodes.size());
-    for (const Edge& edge : tube.edges) {
-      ++edges[edge.from];
-      ++edges[edge.to];
-    }
-    for (std::size_t i = 0; i < tube.nodes.size(); ++i) {
-      if (edges[i] < 2 && is_at_border(tube.nodes[i].position, tube.radius)) return true;
-    }
-    return false;
-  }
-
-  void doubt_lengths() {
-    std::size_t complete = 0;
-    std::size_t too_short = 0;
-    std::size_t too_long = 0;
-    double longest = 0;
-    for (std::size_t i = 0; i < model_.tubes.size(); ++i) {
-      const TubeEvidence& evidence = model_.evidence[i];
-      complete += evidence.length_fit == LengthFit::complete ? 1 : 0;
-      if (evidence.length_fit == LengthFit::too_short && !may_go_on(model_.tubes[i])) ++too_short;
-      too_long += evidence.length_fit == LengthFit::too_long ? 1 : 0;
-      longest = std::max(longest, evidence.length);
-    }
-    constexpr std::size_t share = 5;
-    if (share * too_long > model_.tubes.size())
-      warn("length", fmt::format("{} of {} tubes are longer than known, the longest {}: is the length right?",
-                                 too_long, model_.tubes.size(), metres(longest)));
-    constexpr std::size_t tubes_min = 3;
-    if (too_short >= tubes_min && too_short > share * complete)
-      warn("length",
-           fmt::format("{} of {} tubes are shorter than known, the longest {}: is the length right?",
-                       too_short, model_.tubes.size(), metres(longest)));
-  }
-
   void doubt_sensor() {
     const std::optional<double> across = median_of_tubes([](const Tube& tube, const TubeEvidence& evidence) {
       return std::sqrt(2 * tube.radius * static_cast<double>(evidence.points) /
@@ -369,8 +324,10 @@ private:
     constexpr std::size_t share = 5;
     if (known_.support.shape == Support::Shape::nothing) return;
     if (model_.tubes.empty() || share * counts_.unexplained <= kept()) return;
+    const char* others = ": are there other things, or tubes of another radius, to be declared as [[tube]]?";
     warn("unexplained",
-         fmt::format("{} of the points looked at are on no tube", percent(counts_.unexplained, kept())));
+         fmt::format("{} of the points looked at are on no tube{}", percent(counts_.unexplained, kept()),
+                     model_.foreign_radii.empty() ? others : ""));
   }
 
   void doubt_view() {

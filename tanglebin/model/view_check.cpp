@@ -157,11 +157,12 @@ std::optional<Finding> doubt_of_resolution(const PointCloud& cloud, const std::v
   if (use.share(use.points) > points_max) {
     return warning(
         "camera",
-        fmt::format("{:.1f} points lie in each pixel of the camera's image, where one camera sees one: "
-                    "the image may be of a higher resolution, the camera's pose in another unit, or several "
-                    "clouds in "
-                    "one",
-                    use.share(use.points)));
+        fmt::format(
+            "{:.1f} points lie in each pixel of the camera's image, where one camera sees one: if one "
+            "camera took the cloud, the image may be of a higher resolution, or the camera's pose in "
+            "another unit; if it is of several views, or the camera is made up, tubes are found all "
+            "the same, but points behind others may be null (docs/real-scans.md)",
+            use.share(use.points)));
   }
   constexpr double deep_max = 0.02;
   if (use.share(use.deep) > deep_max) {

@@ -111,6 +111,16 @@ double share_in_image(const PointCloud& cloud, const Eigen::Affine3d& motion, co
   return points.empty() ? 0 : static_cast<double>(seen) / static_cast<double>(points.size());
 }
 
+double share_behind(const PointCloud& cloud, const Eigen::Isometry3d& motion) {
+  const std::vector<Vector3d> points = some_points(cloud);
+  constexpr double far = 20;
+  const auto behind = std::ranges::count_if(points, [&](const Vector3d& point) {
+    const double depth = (motion * point).z();
+    return depth < 0 && depth > -far;
+  });
+  return points.empty() ? 0 : static_cast<double>(behind) / static_cast<double>(points.size());
+}
+
 std::optional<double> extent(const PointCloud& cloud) {
   const std::vector<Vector3d> points = some_points(cloud);
   if (points.empty()) return std::nullopt;

@@ -37,6 +37,10 @@ bool fits(const FittedIntrinsics& fitted);
 /// if there are none.
 double share_in_image(const PointCloud& cloud, const Eigen::Affine3d& motion, const Intrinsics& intrinsics);
 
+/// The share of the cloud's finite points, in [0, 1], that are behind the camera. `motion` moves them into
+/// the camera's frame. Looks at about ten thousand of them. 0 if there are none.
+double share_behind(const PointCloud& cloud, const Eigen::Isometry3d& motion);
+
 /// The longest extent of the cloud along an axis, without a hundredth of the points at either end, in its own
 /// unit. Looks at about ten thousand points. None if none is finite.
 std::optional<double> extent(const PointCloud& cloud);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -77,6 +78,12 @@ struct Candidate {
   double share;  ///< of the points that are in the image; with fitted intrinsics, 1 if they fit, else 0
 };
 
+// Turns points by half a turn about x: between OpenGL's camera frame, whose z points backwards and y up, and
+// this one.
+Isometry3d turned_about_x() {
+  return Isometry3d(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
+}
+
 /// Of a cloud in metres.
 class CameraSearch {
 public:
@@ -92,6 +99,8 @@ public:
   }
 
 private:
+  static constexpr double nearly_all = 0.9;
+
   std::optional<Intrinsics> known_intrinsics() const {
     std::optional<Intrinsics> known = camera_.intrinsics;
     if (known && known->width == 0) {
@@ -107,7 +116,8 @@ private:
       throw InputError(
           {"", 0, "camera"}, "neither the camera's intrinsics nor an organized cloud, which shows them",
           "--camera FILE (of ROS, Open3D, BOP or `tanglebin scan --depth`), or a scene file with "
-          "[camera]");
+          "[camera]. For a cloud that is no camera's image (of a line scanner, merged from several views), "
+          "describe a camera far above it (docs/real-scans.md)");
     if (camera_.intrinsics->width == 0)
       throw InputError(
           {"", 0, "camera"}, "a camera without the size of its image, and a cloud that is not organized",
@@ -134,7 +144,10 @@ private:
   }
 
   Candidate candidate(CloudFrame frame, const Isometry3d& pose) const {
-    const Isometry3d motion = motion_from(frame, pose);
+    return candidate_with(frame, motion_from(frame, pose));
+  }
+
+  Candidate candidate_with(CloudFrame frame, const Isometry3d& motion) const {
     if (const std::optional<Intrinsics> known = known_intrinsics())
       return {frame, {}, share_in_image(cloud_, Eigen::Affine3d(motion.matrix()), *known)};
     const std::optional<FittedIntrinsics> fitted = fit_intrinsics(cloud_, motion);
@@ -147,31 +160,34 @@ private:
     if (!pose || !extent(cloud_)) return choose_without_pose(in_camera, notes);
     const Candidate in_world = candidate(CloudFrame::world, *pose);
     if (pose->isApprox(Isometry3d::Identity())) return in_world;
-    return choose(in_camera, in_world, notes);
+    return choose(in_camera, in_world, *pose, notes);
   }
 
   Candidate choose_without_pose(const Candidate& in_camera, Notes& notes) const {
     constexpr double half = 0.5;
-    if (extent(cloud_) && in_camera.share < half)
+    if (extent(cloud_) && in_camera.share < half) {
+      expect_forwards(CloudFrame::camera, Isometry3d::Identity());
       throw InputError(
           {"", 0, "camera"},
           fmt::format("in the camera's frame, {}; if the cloud is in another, give the camera's pose: "
                       "camera_to_world, or position and look_at, in the scene file's [camera]",
                       describe(in_camera)));
+    }
     notes.emplace_back("the camera's pose is not known: the world frame is the camera's");
     return in_camera;
   }
 
-  Candidate choose(const Candidate& in_camera, const Candidate& in_world, Notes& notes) const {
-    constexpr double most = 0.9;
+  Candidate choose(const Candidate& in_camera, const Candidate& in_world, const Isometry3d& pose,
+                   Notes& notes) const {
     constexpr double half = 0.5;
     for (const auto& [likely, other] : {std::pair{in_camera, in_world}, {in_world, in_camera}}) {
-      if (likely.share < most || other.share > half) continue;
+      if (likely.share < nearly_all || other.share > half) continue;
       notes.push_back(fmt::format("the cloud is taken to be in the {} frame: there, {}",
                                   likely.frame == CloudFrame::camera ? "camera's" : "world",
                                   describe(likely)));
       return likely;
     }
+    for (const Candidate& either : {in_camera, in_world}) expect_forwards(either.frame, pose);
     throw InputError(
         {"", 0, "frame"},
         fmt::format("in the camera's frame, {}, and in the world frame, {}; say in which the cloud is: "
@@ -179,10 +195,31 @@ private:
                     describe(in_camera), describe(in_world)));
   }
 
+  bool are_behind(const Isometry3d& motion) const { return share_behind(cloud_, motion) > nearly_all; }
+
+  // Throws if the camera would see the cloud if y and z pointed the other way, as in OpenGL's camera frame.
+  void expect_forwards(CloudFrame frame, const Isometry3d& pose) const {
+    const Isometry3d motion = motion_from(frame, pose);
+    if (!are_behind(motion) || candidate_with(frame, turned_about_x() * motion).share < nearly_all) return;
+    const bool is_camera = frame == CloudFrame::camera;
+    throw InputError(
+        {"", 0, "axes"},
+        fmt::format("nearly all points behind the camera, if the cloud is in the {} frame",
+                    is_camera ? "camera's" : "world"),
+        fmt::format("x to the right, y down and z along the view; with y up and z backwards, as in OpenGL, "
+                    "they would fit: {}",
+                    is_camera ? "write (x, −y, −z) for each point (x, y, z), or give frame = \"world\" and "
+                                "OpenGL's camera_to_world (docs/real-scans.md)"
+                              : "turn the camera's pose by 180° about its x axis"));
+  }
+
   std::string describe(const Candidate& candidate) const {
     if (camera_.intrinsics)
       return fmt::format("{} of the points are in the camera's image", percent(candidate.share));
-    if (!candidate.fitted) return "too few points are in front of the camera";
+    if (!candidate.fitted)
+      return candidate.frame == CloudFrame::camera && are_behind(Isometry3d::Identity())
+                 ? "nearly all points are behind the camera (does z point backwards, as in OpenGL?)"
+                 : "too few points are in front of the camera";
     if (is_image(*candidate.fitted) && !fits(*candidate.fitted))
       return "the image is upside down or mirrored: x should point right and y down";
     return fmt::format("the points are {:.2g} pixels from a pinhole camera's", candidate.fitted->residual);
@@ -210,12 +247,14 @@ private:
       expect_same_camera(*known, motion_from(chosen.frame, pose));
       return *known;
     }
-    if (!chosen.fitted || !fits(*chosen.fitted))
+    if (!chosen.fitted || !fits(*chosen.fitted)) {
+      expect_forwards(chosen.frame, pose);
       throw InputError(
           {"", 0, "camera"},
           fmt::format("the organized cloud does not show its camera: if its rows and columns are an "
                       "image's, {}; give --camera FILE",
                       describe(chosen)));
+    }
     const auto& [intrinsics, residual] = *chosen.fitted;
     notes.push_back(
         fmt::format("the intrinsics are fitted to the organized cloud, to {:.2g} pixels: fx {:.6g}, fy "
@@ -232,17 +271,31 @@ void move(PointCloud& cloud, const Isometry3d& motion) {
   for (Eigen::Vector3f& point : cloud.points) point = (motion * point.cast<double>()).cast<float>();
 }
 
+// Thin tubes that are not looked for leave something else that seems to have a radius.
+RadiusEstimate estimate_in_usual_range(const PointCloud& cloud, const KnownScene& known,
+                                       const std::function<void()>& at_place) {
+  const RadiusRange usual;
+  try {
+    return estimate_radius(cloud, known, usual, at_place);
+  } catch (const InputError& error) {
+    throw InputError(error.place(),
+                     fmt::format("{}; only radii of {:.3g} to {:.3g} mm were looked for: for others, "
+                                 "radius = {{ min, max }} in [[tube]]",
+                                 error.problem(), 1000 * usual.min, 1000 * usual.max));
+  }
+}
+
 RadiusEstimate radius_from(const PointCloud& cloud, const KnownScene& known,
                            const std::optional<LengthRange>& range, const std::function<void()>& at_place) {
-  const RadiusRange radii = range ? RadiusRange{range->min, range->max} : RadiusRange{};
-  RadiusEstimate found = estimate_radius(cloud, known, radii, at_place);
+  if (!range) return estimate_in_usual_range(cloud, known, at_place);
+  RadiusEstimate found = estimate_radius(cloud, known, {range->min, range->max}, at_place);
   constexpr double deviations = 3;
   const double error = deviations * found.standard_error;
-  if (range && (found.radius < range->min - error || found.radius > range->max + error))
+  if (found.radius < range->min - error || found.radius > range->max + error)
     throw InputError({"", 0, "radius"},
                      fmt::format("tubes of a radius of {:.5f} m, which the cloud shows", found.radius),
                      fmt::format("the radius to be {} to {} m, as it is given", range->min, range->max));
-  if (range) found.radius = std::clamp(found.radius, range->min, range->max);
+  found.radius = std::clamp(found.radius, range->min, range->max);
   return found;
 }
 

@@ -91,6 +91,18 @@ TEST_F(ModelReport, SaysTheSameInItsOwnJson) {
   EXPECT_EQ(printed.at("tubes"), 2);
 }
 
+// As docs/formats.md says: who draws the centre line follows the edges.
+TEST_F(ModelReport, HasTheEdgesInOrderFromOneEndToTheOther) {
+  for (const std::string method : {"axis", "paper"}) {
+    ASSERT_EQ(model(scan_, "--method " + method + " --modelled-tubes " + path("tubes.json")).status, 0);
+    for (const auto& tube : nlohmann::json::parse(test::bytes_of(directory_ / "tubes.json")).at("tubes")) {
+      const auto& edges = tube.at("edges");
+      EXPECT_EQ(edges.size() + 1, tube.at("nodes").size());
+      for (std::size_t i = 1; i < edges.size(); ++i) EXPECT_EQ(edges[i - 1][1], edges[i][0]) << method;
+    }
+  }
+}
+
 TEST_F(ModelReport, SaysWhichLengthItFound) {
   const PointCloud three =
       test::scanned({test::straight_tube(1, -0.1), test::straight_tube(2, 0), test::straight_tube(3, 0.1)});

@@ -26,6 +26,7 @@ using test::ProgramResult;
 using test::run_program;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::UnorderedElementsAre;
 
 /// Two tubes that cross, scanned.
 class ModelCommand : public testing::Test {
@@ -86,6 +87,11 @@ TEST_F(ModelCommand, PrintsItsStepsAsJson) {
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json.at("points"), scan_.points.size());
   EXPECT_EQ(json.at("tubes"), 2);
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  EXPECT_THAT(keys, UnorderedElementsAre("cloud", "points", "radii", "tubes", "steps", "notes", "usable",
+                                         "counts", "findings", "estimated_lengths", "found"))
+      << "docs/formats.md lists them";
   std::vector<std::string> names;
   for (const auto& step : json.at("steps")) names.push_back(step.at("name"));
   EXPECT_THAT(names, ElementsAre("filter", "vote", "fragment", "join", "fit", "label"));

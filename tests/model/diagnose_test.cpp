@@ -371,6 +371,19 @@ TEST(Diagnose, NamesTheRadiiOfForeignTubes) {
               HasSubstr("2 tubes have radii of about 4 to 18 mm, not 12.5 mm: left out. Are they foreign"));
 }
 
+TEST(Diagnose, AsksForOtherTubesWhereManyPointsAreOnNone) {
+  const View view = right_view();
+  Model model = model_of(view);
+  model.counts.unexplained = model.counts.on_tubes / 2;
+  EXPECT_THAT(
+      text_of(diagnose(view.cloud, view.scene, model, 1)),
+      HasSubstr("unexplained: 33 % of the points looked at are on no tube: are there other things, or tubes "
+                "of another radius, to be declared as [[tube]]?\n"));
+  model.foreign_radii = {0.004};
+  EXPECT_THAT(text_of(diagnose(view.cloud, view.scene, model, 1)),
+              HasSubstr("unexplained: 33 % of the points looked at are on no tube\n"));
+}
+
 TEST(Diagnose, WarnsOfTooFewPointsAcrossATube) {
   const View view = right_view();
   const Model model = model_tubes(view.cloud, view.scene, {.ratio = 0.02});

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -213,7 +214,11 @@ TEST_F(ToldScene, WhatTheCloudDoesNotShowMustBeSaid) {
   const std::vector<std::pair<std::string, std::string>> refusals = {
       {complaint([&] { resolve(bin_and_tubes(), cloud()); }),
        "camera: found neither the camera's intrinsics nor an organized cloud, which shows them, expected "
-       "--camera"},
+       "--camera FILE (of ROS, Open3D, BOP or `tanglebin scan --depth`), or a scene file with [camera]. For "
+       "a "
+       "cloud that is no camera's image (of a line scanner, merged from several views), describe a camera "
+       "far "
+       "above it (docs/real-scans.md)"},
       {complaint([&] { resolve(in_world, no_viewpoint); }),
        "camera: found points in the world frame, and nothing that says where the camera is"},
       {complaint([&] { resolve(with_camera({.intrinsics = intrinsics_of(camera())}), no_viewpoint); }),
@@ -229,6 +234,43 @@ TEST_F(ToldScene, WhatTheCloudDoesNotShowMustBeSaid) {
        "pixels from a pinhole camera's; if the cloud is in another"},
   };
   for (const auto& [refusal, message] : refusals) EXPECT_THAT(refusal, HasSubstr(message));
+}
+
+// Such as a depth buffer or a renderer's camera gives them: y up and z backwards.
+TEST_F(ToldScene, NamesOpenGlsCameraFrame) {
+  const Eigen::Affine3d turned(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
+  const PointCloud image = moved(in_camera_frame(organized()), turned);
+  const PointCloud points = moved(in_camera_frame(cloud()), turned);
+  const Scene without_pose = with_camera({.intrinsics = intrinsics_of(camera())});
+  const Scene with_pose = with_camera({.pose = camera().pose});
+  const Scene told_frame = with_camera({.pose = camera().pose, .frame = CloudFrame::camera});
+  for (const std::string& refusal :
+       {complaint([&] { resolve(bin_and_tubes(), image); }), complaint([&] { resolve(with_pose, image); }),
+        complaint([&] { resolve(told_frame, image); }), complaint([&] { resolve(without_pose, points); })})
+    EXPECT_EQ(
+        refusal,
+        "axes: found nearly all points behind the camera, if the cloud is in the camera's frame, expected "
+        "x to the right, y down and z along the view; with y up and z backwards, as in OpenGL, they would "
+        "fit: write (x, −y, −z) for each point (x, y, z), or give frame = \"world\" and OpenGL's "
+        "camera_to_world (docs/real-scans.md)");
+}
+
+// The other remedy of these: OpenGL's frame is the world, and the camera in it looks along −z.
+TEST_F(ToldScene, TakesOpenGlsCameraFrameForTheWorld) {
+  const Eigen::Isometry3d turned(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
+  const PointCloud image = moved(in_camera_frame(organized()), Eigen::Affine3d(turned));
+  Scene scene = with_camera({.pose = turned, .frame = CloudFrame::world});
+  scene.support->pose = turned * camera().pose.inverse();
+  EXPECT_GT(micro_recall(scene, image), 0.98);
+}
+
+TEST_F(ToldScene, NamesAPoseOfACameraThatLooksBackwards) {
+  const Eigen::Isometry3d turned(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
+  PointCloud image = organized();
+  image.viewpoint.reset();
+  const Scene scene = with_camera({.pose = camera().pose * turned, .frame = CloudFrame::world});
+  EXPECT_THAT(complaint([&] { resolve(scene, image); }),
+              HasSubstr("they would fit: turn the camera's pose by 180° about its x axis"));
 }
 
 TEST_F(ToldScene, PointsThatAreNotThereDoNotCount) {
@@ -254,6 +296,19 @@ TEST_F(ToldScene, PointsWhereTheSensorIsWereNotMeasured) {
   EXPECT_NEAR(resolved.known.camera.fx, camera().fx, 0.1);
   const auto is_zero = [](const Eigen::Vector3f& point) { return point.isZero(); };
   EXPECT_EQ(std::ranges::count_if(resolved.cloud.points, is_zero), 0);
+}
+
+// Of tubes of 1.25 mm, it might find another radius, or none.
+TEST_F(ToldScene, SaysWhichRadiiWereLookedFor) {
+  Scene scene = with_camera({.intrinsics = intrinsics_of(camera()), .unit = 1});
+  scene.support.reset();
+  scene.tubes.clear();
+  const PointCloud tiny = moved(in_camera_frame(cloud()), Eigen::Affine3d(Eigen::Scaling(0.1)));
+  EXPECT_THAT(
+      complaint([&] { resolve(scene, tiny); }),
+      HasSubstr(
+          "; give the radius; only radii of 2 to 60 mm were looked for: for others, radius = { min, max "
+          "} in [[tube]]"));
 }
 
 TEST_F(ToldScene, ARadiusThatTheCloudDoesNotShowIsRefused) {

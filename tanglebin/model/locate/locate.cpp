@@ -198,6 +198,17 @@ Fault fault_of_rim(const Agreement& agreement, const Bin& bin) {
   }
   if (all.explained >= explained_min * all.expected && all.contradicted <= contradicted_max * all.expected)
     return std::nullopt;
+  constexpr double shown_min = 0.05;
+  constexpr double empty_max = 0.6;
+  const int empty = all.expected - all.explained - all.hidden - all.contradicted;
+  if (all.explained < shown_min * all.expected && empty > empty_max * all.expected)
+    return fmt::format(
+        "the rim is not in the cloud where the sizes have it: of its pixels, {:.0f} % show it and {:.0f} % "
+        "have "
+        "no point; was the cloud cropped to the inside of the bin? Leave the rim in it, or give the bin's "
+        "pose "
+        "and do not locate it",
+        percent(all.explained, all.expected), percent(empty, all.expected));
   return fmt::format(
       "the rim is not {:.3f} m above the floor, or not {:.3f} m thick: of its pixels, {:.0f} % show it, "
       "{:.0f} % something in front of it and {:.0f} % something behind it",
@@ -230,8 +241,7 @@ Fault fault_of(const Agreement& agreement, const Bin& bin) {
   if (contradicted > contradicted_max) {
     return fmt::format(
         "in the best pose of this bin, {:.0f} % of the points are behind it and {:.0f} % on it; is it {:.3f} "
-        "x "
-        "{:.3f} x {:.3f} m?",
+        "x {:.3f} x {:.3f} m inside, from wall to wall?",
         contradicted, percent(total(agreement.explained), measured), bin.length, bin.width, bin.height);
   }
   if (Fault fault = fault_of_inside(agreement)) return fault;

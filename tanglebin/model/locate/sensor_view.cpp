@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "tanglebin/base/error.hpp"
 
@@ -29,7 +30,14 @@ std::size_t index_of(const Camera& camera, int column, int row) {
          static_cast<std::size_t>(column);
 }
 
-void expect_points(std::size_t finite, std::size_t in_image) {
+// OpenGL's camera frame has z backwards and y up.
+std::string hint_of_behind(std::size_t finite, std::size_t behind) {
+  if (10 * behind <= 9 * finite) return "";
+  return " Nearly all are behind the camera: if z points backwards, as in OpenGL, write (x, −y, −z) for each "
+         "point (x, y, z)";
+}
+
+void expect_points(std::size_t finite, std::size_t behind, std::size_t in_image) {
   const InputPlace place{.file = "", .line = 0, .field = "cloud"};
   if (finite < points_min) {
     throw InputError(place, fmt::format("{} points with a position", finite),
@@ -38,8 +46,9 @@ void expect_points(std::size_t finite, std::size_t in_image) {
   if (2 * in_image < finite || in_image < points_min) {
     throw InputError(
         place,
-        fmt::format("{} of {} points in the camera's image: do frame, unit and camera belong to this cloud?",
-                    in_image, finite),
+        fmt::format(
+            "{} of {} points in the camera's image: do frame, unit and camera belong to this cloud?{}",
+            in_image, finite, hint_of_behind(finite, behind)),
         "most of them");
   }
 }
@@ -98,18 +107,20 @@ SensorView view_of(const PointCloud& cloud, const Camera& camera) {
                      nothing());
   const Isometry3d from_world = camera.pose.inverse(Eigen::Isometry);
   std::size_t finite = 0;
+  std::size_t behind = 0;
   std::size_t in_image = 0;
   for (const Vector3f& point : cloud.points) {
     if (!point.allFinite()) continue;
     ++finite;
     const Vector3d in_camera = from_world * point.cast<double>();
+    if (in_camera.z() < 0) ++behind;
     const std::optional<PixelPosition> pixel = pixel_of(view.camera, in_camera);
     if (!pixel) continue;
     ++in_image;
     Vector3f& nearest = view.points[index_of(camera, pixel->column, pixel->row)];
     if (!(nearest.z() <= in_camera.z())) nearest = in_camera.cast<float>();
   }
-  expect_points(finite, in_image);
+  expect_points(finite, behind, in_image);
   for (std::size_t i = 0; i < view.points.size(); ++i) {
     if (view.points[i].allFinite()) view.seen.push_back(i);
   }

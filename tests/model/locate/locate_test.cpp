@@ -273,6 +273,18 @@ TEST(Locate, RefusesABinWhoseRimIsOutsideOfTheImage) {
   }
 }
 
+// The wall's thickness, which may not have been told, is not to blame.
+TEST(Locate, SaysThatTheRimIsNotInACloudThatIsCroppedToTheInsideOfTheBin) {
+  const Bin bin{.length = 0.6, .width = 0.4, .height = 0.12, .wall = 0.01};
+  ScanOfBin scan = realistic_scan_of(bin, some_tubes(10, bin), camera_over(0, 1.2));
+  std::erase_if(scan.cloud.points, [&](const Eigen::Vector3f& point) {
+    return !is_over_floor(bin, point.cast<double>(), 0.01);
+  });
+  EXPECT_THAT(refusal(scan),
+              AllOf(HasSubstr("not located: the rim is not in the cloud where the sizes have it"),
+                    HasSubstr("was the cloud cropped to the inside of the bin?")));
+}
+
 TEST(Locate, RefusesATableWithoutABin) {
   ScanOfBin scan = scan_of(test::wide_bin(), some_tubes(4, {}), camera_over(20, 1));
   scan.support.bin = {};
@@ -293,6 +305,15 @@ TEST(Locate, SaysThatTheCloudIsNotInTheImage) {
   EXPECT_THAT(refusal(scan), AllOf(HasSubstr("cloud"), HasSubstr("in the camera's image")));
   scan.cloud.points.resize(10);
   EXPECT_THAT(refusal(scan), HasSubstr("found 10 points"));
+}
+
+TEST(Locate, AsksWhetherZPointsBackwardsIfAllIsBehindTheCamera) {
+  ScanOfBin scan = scan_of({}, {}, camera_over(20, 1));
+  const Isometry3d turned(Eigen::AngleAxisd(180 * degree, Vector3d::UnitX()));
+  scan.camera.pose = scan.camera.pose * turned;
+  EXPECT_THAT(refusal(scan),
+              HasSubstr("Nearly all are behind the camera: if z points backwards, as in OpenGL, "
+                        "write (x, −y, −z) for each point"));
 }
 
 TEST(Locate, RefusesToLocateNothing) {
