@@ -174,15 +174,21 @@ private:
     return depths.empty() ? 0 : median(std::move(depths));
   }
 
+  std::string words_of_empty() const {
+    const std::string most = fmt::format("{} of the points are on the {}",
+                                         percent(counts_.on_support + counts_.near_support, valid()),
+                                         name_of(known_.support.shape));
+    if (kept() == 0) return "nothing is left to look for tubes in: " + most + ": it looks empty";
+    return fmt::format(
+        "{}, and none of the {} others is on a tube of radius {}: it looks empty, or is the radius wrong?",
+        most, kept(), radii());
+  }
+
   void look_for_tubes() {
     if (!model_.tubes.empty()) return;
     constexpr double nearly_none = 0.01;
     if (share_of(kept(), valid()) < nearly_none) {
-      refuse("no-tubes",
-             fmt::format("nothing is left to look for tubes in: {} of the points are on the {}: it looks "
-                         "empty",
-                         percent(counts_.on_support + counts_.near_support, valid()),
-                         name_of(known_.support.shape)));
+      refuse("no-tubes", words_of_empty());
       return;
     }
     if (model_.filtered.empty()) {
@@ -230,17 +236,22 @@ private:
     }
   }
 
-  // The median over the tubes that have enough points.
+  // The median over the tubes that have enough points and are probably right; over all that have enough
+  // points, if none is.
   template <typename Value>
   std::optional<double> median_of_tubes(Value value) const {
     constexpr std::size_t points_min = 100;
-    std::vector<double> values;
+    constexpr double probable = 0.5;
+    std::vector<double> all;
+    std::vector<double> right;
     for (std::size_t i = 0; i < model_.tubes.size(); ++i) {
-      if (model_.evidence[i].points >= points_min)
-        values.push_back(value(model_.tubes[i], model_.evidence[i]));
+      const TubeEvidence& evidence = model_.evidence[i];
+      if (evidence.points < points_min) continue;
+      all.push_back(value(model_.tubes[i], evidence));
+      if (evidence.confidence >= probable) right.push_back(all.back());
     }
-    if (values.empty()) return std::nullopt;
-    return median(std::move(values));
+    if (all.empty()) return std::nullopt;
+    return median(right.empty() ? std::move(all) : std::move(right));
   }
 
   // Of the points about the tubes, in radii.
