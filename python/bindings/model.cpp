@@ -115,6 +115,7 @@ void bind_model(py::module_& module) {
       .def_readonly("evidence", &Model::evidence, doc::model::Model_evidence)
       .def_readonly("foreign_radii", &Model::foreign_radii, doc::model::Model_foreign_radii)
       .def_readonly("estimated_lengths", &Model::estimated_lengths, doc::model::Model_estimated_lengths)
+      .def_readonly("pieces_left_out", &Model::pieces_left_out, doc::model::Model_pieces_left_out)
       .def_readonly("counts", &Model::counts, doc::model::PointCounts)
       .def_readonly("findings", &Model::findings, doc::model::Model_findings)
       .def_property_readonly("is_refused", &Model::is_refused, doc::model::Model_is_refused)

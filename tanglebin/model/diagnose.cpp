@@ -67,6 +67,7 @@ public:
       std::ranges::move(doubts_of_lengths(known_, model_), std::back_inserter(findings_));
       doubt_sensor();
     }
+    doubt_fits();
     doubt_pieces();
     doubt_unexplained();
     doubt_view();
@@ -236,17 +237,21 @@ private:
     }
   }
 
+  static bool is_clear(const TubeEvidence& evidence) {
+    constexpr std::size_t points_min = 100;
+    return evidence.points >= points_min;
+  }
+
   // The median over the tubes that have enough points and are probably right; over all that have enough
   // points, if none is.
   template <typename Value>
   std::optional<double> median_of_tubes(Value value) const {
-    constexpr std::size_t points_min = 100;
     constexpr double probable = 0.5;
     std::vector<double> all;
     std::vector<double> right;
     for (std::size_t i = 0; i < model_.tubes.size(); ++i) {
       const TubeEvidence& evidence = model_.evidence[i];
-      if (evidence.points < points_min) continue;
+      if (!is_clear(evidence)) continue;
       all.push_back(value(model_.tubes[i], evidence));
       if (evidence.confidence >= probable) right.push_back(all.back());
     }
@@ -316,6 +321,29 @@ private:
                                 "{:.0f} % is too much to "
                                 "tell tubes apart safely: is the sensor that noisy, or the radius wrong?",
                                 rounded_up(100 * *noise), 100 * noise_max));
+  }
+
+  // Half of a tube that is hidden between two others may be taken for a part of each.
+  void doubt_fits() {
+    constexpr double times = 5;
+    constexpr double radii_min = 0.1;
+    const std::optional<double> usual = scatter();
+    std::string ids;
+    double worst = 0;
+    for (std::size_t i = 0; i < model_.tubes.size(); ++i) {
+      const TubeEvidence& evidence = model_.evidence[i];
+      const double scatter = evidence.residual / model_.tubes[i].radius;
+      if (!usual || !is_clear(evidence) || scatter < std::max(times * *usual, radii_min)) continue;
+      ids += fmt::format("{}{}", ids.empty() ? "" : ", ", model_.tubes[i].id);
+      worst = std::max(worst, scatter);
+    }
+    if (ids.empty()) return;
+    warn(
+        "fit",
+        fmt::format(
+            "the points of tube {} scatter by up to {:.0f} % of the radius, those of the others by {:.2g} %: "
+            "points of a neighbour may have been taken for its own",
+            ids, 100 * worst, 100 * *usual));
   }
 
   void doubt_pieces() {

@@ -412,5 +412,17 @@ TEST(Diagnose, SaysThatThereAreTooManyPieces) {
   EXPECT_THAT(text_of(diagnose(view.cloud, nothing_known, model, 1)), HasSubstr("Give [support]"));
 }
 
+// As where a tube is half hidden between two others, and each took a part of it.
+TEST(Diagnose, SaysWhichTubesTheirPointsDoNotFit) {
+  const View view = right_view();
+  Model model = model_of(view);
+  model.evidence[1].residual = 0.2 * model.tubes[1].radius;
+  EXPECT_THAT(text_of(diagnose(view.cloud, view.scene, model, 1)),
+              HasSubstr("warning fit: the points of tube 2 scatter by up to 20 % of the radius"));
+  for (TubeEvidence& evidence : model.evidence) evidence.residual = 0.05 * model.tubes[0].radius;
+  model.evidence[1].residual *= 4;
+  EXPECT_EQ(text_of(diagnose(view.cloud, view.scene, model, 1)), "");
+}
+
 }  // namespace
 }  // namespace tanglebin

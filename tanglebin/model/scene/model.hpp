@@ -35,9 +35,8 @@ struct Model {
   std::vector<TubeEvidence> evidence{};  ///< for each tube: how sure it is
   std::vector<double> foreign_radii{};   ///< m, of each tube that no kind has the radius of: left unexplained
   std::vector<EstimatedLength>
-      estimated_lengths{};  ///< of the kinds whose length was not told, but stands out
-  std::size_t pieces_left_out =
-      0;  ///< of what may be tubes, the smallest, where there were too many to compare
+      estimated_lengths{};          ///< of the kinds whose length was not told, but stands out
+  std::size_t pieces_left_out = 0;  ///< the smallest that may be of tubes, where there were too many
   PointCounts counts{};
   std::vector<Finding> findings{};  ///< what does not fit: errors, then warnings; empty if all is well
 
