@@ -37,9 +37,10 @@ bool is_false_speck(const AxisSteps& steps, const std::vector<std::size_t>& memb
   return unseen_length(length, hidden, steps.kind, settings) > 0;
 }
 
-// A tube that is seen end-on looks like a ball, too, but then its length must be known to say so.
+// A tube with a round end that is seen from its front looks like a ball, too, but then its length must be
+// known to say so.
 bool is_ball(const Tube& tube, const TubeKind& kind) {
-  return kind.length_min == 0 && total_length(tube) < tube.radius;
+  return (tube.flat_ends || kind.length_min == 0) && total_length(tube) <= tube.radius;
 }
 
 // The surface is a tube's, as far as one tube can tell. On two sides of a box, the distances from the axis
@@ -165,9 +166,6 @@ std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vec
 }
 
 void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, const Support& support) {
-  drop_unless(of_kinds, [](const TubeCandidate& candidate) {
-    return !candidate.tube.flat_ends || total_length(candidate.tube) > candidate.tube.radius;
-  });
   if (holds_only_tubes(support)) return;
   drop_unless(of_kinds,
               [&](const TubeCandidate& candidate) { return !lies_along_rim(candidate.tube, support); });

@@ -31,14 +31,14 @@ struct ForeignTube {
 };
 
 /// Fits a tube to each set of fragments in `steps.tubes`, but for specks: of these next to nothing is seen;
-/// or no more than of a ball, and the rest should have been seen.
+/// or no more than of a ball, and the rest should have been seen. A ball is no tube either if its ends
+/// should be flat, or nothing is known of its length.
 std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
                                           const KnownScene& known, const AxisSettings& settings);
 
 /// In a bin without a margin there are tubes. Elsewhere there may also be the rim of a bin, a box, or a pipe
 /// of quite another radius; and without a support walls, so that what shows too little to tell is no tube
-/// there. Nor is what lies along the rim of the known bin, however round that is. A ball is none either: an
-/// upright tube shows one if its ends are round.
+/// there. Nor is what lies along the rim of the known bin, however round that is.
 void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, const Support& support);
 
 /// Takes the tubes out that clearly show a radius, all along or in one of their fragments, that none of the
