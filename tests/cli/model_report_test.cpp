@@ -95,7 +95,8 @@ TEST_F(ModelReport, SaysTheSameInItsOwnJson) {
 TEST_F(ModelReport, HasTheEdgesInOrderFromOneEndToTheOther) {
   for (const std::string method : {"axis", "paper"}) {
     ASSERT_EQ(model(scan_, "--method " + method + " --modelled-tubes " + path("tubes.json")).status, 0);
-    for (const auto& tube : nlohmann::json::parse(test::bytes_of(directory_ / "tubes.json")).at("tubes")) {
+    const auto written = nlohmann::json::parse(test::bytes_of(directory_ / "tubes.json"));
+    for (const auto& tube : written.at("tubes")) {
       const auto& edges = tube.at("edges");
       EXPECT_EQ(edges.size() + 1, tube.at("nodes").size());
       for (std::size_t i = 1; i < edges.size(); ++i) EXPECT_EQ(edges[i - 1][1], edges[i][0]) << method;
