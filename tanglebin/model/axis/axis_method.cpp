@@ -254,11 +254,11 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
   }
   clock.end_step("join", total(result.kinds, [](const auto& steps) { return steps.tubes.size(); }), "tubes");
 
-  std::vector<std::vector<TubeCandidate>> candidates;
+  CandidatesByKind candidates;
   for (const AxisSteps& steps : result.kinds)
     candidates.push_back(fit_candidates(steps, voting.points, known, settings));
-  drop_what_is_no_tube(candidates, known.support);
-  std::vector<std::vector<ForeignTube>> foreign = take_foreign(candidates, known.kinds);
+  CandidatesByKind odd = take_what_is_no_tube(candidates, known.support);
+  std::vector<std::vector<ForeignTube>> foreign = take_foreign(candidates, std::move(odd), known.kinds);
   std::vector<std::int32_t> claimed(scan.cloud.points.size(), null_label);
   for (std::size_t kind = 0; kind < known.kinds.size(); ++kind) {
     AxisSteps& steps = result.kinds[kind];

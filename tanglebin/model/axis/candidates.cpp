@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -59,7 +60,7 @@ bool looks_like_a_tube(const TubeSurface& surface, const Support& support) {
 }
 
 // m, of the tube that the point in the middle is on: by how much points scatter about a tube here.
-double usual_scatter(const std::vector<std::vector<TubeCandidate>>& of_kinds) {
+double usual_scatter(const CandidatesByKind& of_kinds) {
   std::vector<std::pair<double, std::size_t>> scatters;
   for (const std::vector<TubeCandidate>& candidates : of_kinds) {
     for (const TubeCandidate& candidate : candidates)
@@ -97,9 +98,14 @@ bool lies_along_rim(const Tube& tube, const Support& support) {
   return inside > most * total_length(tube);
 }
 
-void drop_unless(std::vector<std::vector<TubeCandidate>>& of_kinds, const auto& is_tube) {
-  for (std::vector<TubeCandidate>& candidates : of_kinds)
-    std::erase_if(candidates, [&](const TubeCandidate& candidate) { return !is_tube(candidate); });
+// Moves what is none to the end of `odd`.
+void take_unless(CandidatesByKind& of_kinds, CandidatesByKind& odd, const auto& is_tube) {
+  for (std::size_t kind = 0; kind < of_kinds.size(); ++kind) {
+    std::vector<TubeCandidate>& candidates = of_kinds[kind];
+    const auto rest = std::stable_partition(candidates.begin(), candidates.end(), is_tube);
+    std::move(rest, candidates.end(), std::back_inserter(odd[kind]));
+    candidates.erase(rest, candidates.end());
+  }
 }
 
 /// How the radii that the tubes of a scan show compare with their known ones.
@@ -109,7 +115,7 @@ struct UsualRatio {
 };
 
 // Of the tube that the point in the middle is on. 0 if no tube shows a radius.
-UsualRatio usual_ratio(const std::vector<std::vector<TubeCandidate>>& of_kinds) {
+UsualRatio usual_ratio(const CandidatesByKind& of_kinds) {
   std::vector<std::pair<double, std::size_t>> ratios;
   for (const std::vector<TubeCandidate>& candidates : of_kinds) {
     for (const TubeCandidate& candidate : candidates) {
@@ -132,15 +138,22 @@ bool is_other_radius(const SeenRadius& seen, double known, const UsualRatio& usu
          std::abs(seen.radius - usual.middle * known) > std::max(tolerance * known, errors * error);
 }
 
-// m, if the candidate shows one.
-std::optional<double> foreign_radius(const TubeCandidate& candidate, const std::vector<TubeKind>& kinds,
+// m, the first that is none of the kinds', if one is.
+std::optional<double> foreign_radius(const std::vector<SeenRadius>& radii, const std::vector<TubeKind>& kinds,
                                      const UsualRatio& usual) {
-  const auto foreign = std::ranges::find_if(candidate.seen, [&](const SeenRadius& seen) {
+  const auto foreign = std::ranges::find_if(radii, [&](const SeenRadius& seen) {
     return std::ranges::all_of(
         kinds, [&](const TubeKind& kind) { return is_other_radius(seen, kind.radius, usual); });
   });
-  if (foreign == candidate.seen.end()) return std::nullopt;
+  if (foreign == radii.end()) return std::nullopt;
   return foreign->radius;
+}
+
+// Noise on a floor is round, too, here and there.
+std::vector<SeenRadius> sure_of(std::vector<SeenRadius> radii) {
+  constexpr double error_max = 0.05;  // radii
+  std::erase_if(radii, [&](const SeenRadius& seen) { return seen.error > error_max * seen.radius; });
+  return radii;
 }
 
 }  // namespace
@@ -165,17 +178,22 @@ std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vec
   return candidates;
 }
 
-void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, const Support& support) {
-  if (holds_only_tubes(support)) return;
-  drop_unless(of_kinds,
-              [&](const TubeCandidate& candidate) { return !lies_along_rim(candidate.tube, support); });
-  drop_unless(of_kinds,
+CandidatesByKind take_what_is_no_tube(CandidatesByKind& of_kinds, const Support& support) {
+  CandidatesByKind odd(of_kinds.size());
+  if (holds_only_tubes(support)) return odd;
+  for (std::vector<TubeCandidate>& candidates : of_kinds) {
+    std::erase_if(candidates,
+                  [&](const TubeCandidate& candidate) { return lies_along_rim(candidate.tube, support); });
+  }
+  take_unless(of_kinds, odd,
               [&](const TubeCandidate& candidate) { return looks_like_a_tube(*candidate.surface, support); });
   const double usual = usual_scatter(of_kinds);
-  drop_unless(of_kinds, [&](const TubeCandidate& candidate) { return scatters_as_usual(candidate, usual); });
+  take_unless(of_kinds, odd,
+              [&](const TubeCandidate& candidate) { return scatters_as_usual(candidate, usual); });
+  return odd;
 }
 
-std::vector<std::vector<ForeignTube>> take_foreign(std::vector<std::vector<TubeCandidate>>& of_kinds,
+std::vector<std::vector<ForeignTube>> take_foreign(CandidatesByKind& of_kinds, CandidatesByKind odd,
                                                    const std::vector<TubeKind>& kinds) {
   std::vector<std::vector<ForeignTube>> foreign(of_kinds.size());
   constexpr double tolerance = 0.1;
@@ -184,12 +202,16 @@ std::vector<std::vector<ForeignTube>> take_foreign(std::vector<std::vector<TubeC
   for (std::size_t kind = 0; kind < of_kinds.size(); ++kind) {
     std::vector<TubeCandidate> known;
     for (TubeCandidate& candidate : of_kinds[kind]) {
-      if (const std::optional<double> radius = foreign_radius(candidate, kinds, usual))
+      if (const std::optional<double> radius = foreign_radius(candidate.seen, kinds, usual))
         foreign[kind].push_back({std::move(candidate), *radius});
       else
         known.push_back(std::move(candidate));
     }
     of_kinds[kind] = std::move(known);
+    for (TubeCandidate& candidate : odd[kind]) {
+      if (const std::optional<double> radius = foreign_radius(sure_of(candidate.seen), kinds, usual))
+        foreign[kind].push_back({std::move(candidate), *radius});
+    }
   }
   return foreign;
 }

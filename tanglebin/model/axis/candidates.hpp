@@ -36,15 +36,19 @@ struct ForeignTube {
 std::vector<TubeCandidate> fit_candidates(const AxisSteps& steps, const std::vector<Eigen::Vector3f>& points,
                                           const KnownScene& known, const AxisSettings& settings);
 
+using CandidatesByKind = std::vector<std::vector<TubeCandidate>>;
+
 /// In a bin without a margin there are tubes. Elsewhere there may also be the rim of a bin, a box, or a pipe
 /// of quite another radius; and without a support walls, so that what shows too little to tell is no tube
-/// there. Nor is what lies along the rim of the known bin, however round that is.
-void drop_what_is_no_tube(std::vector<std::vector<TubeCandidate>>& of_kinds, const Support& support);
+/// there. Takes out what is no tube of its kind, and returns it; but what lies along the rim of the known
+/// bin, however round that is, it drops.
+CandidatesByKind take_what_is_no_tube(CandidatesByKind& of_kinds, const Support& support);
 
 /// Takes the tubes out that clearly show a radius, all along or in one of their fragments, that none of the
 /// kinds has: clearly compared with what the other tubes show. If most of these do not show what is known,
-/// that is wrong or the scan is, and none is taken out. Returns them by kind.
-std::vector<std::vector<ForeignTube>> take_foreign(std::vector<std::vector<TubeCandidate>>& of_kinds,
+/// that is wrong or the scan is, and none is taken out. Returns them by kind, with those among the `odd`,
+/// which are no tubes of their kind, that show such a radius to within 5 %.
+std::vector<std::vector<ForeignTube>> take_foreign(CandidatesByKind& of_kinds, CandidatesByKind odd,
                                                    const std::vector<TubeKind>& kinds);
 
 }  // namespace tanglebin

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "tanglebin/model/axis/axis_method.hpp"
@@ -25,9 +26,9 @@ TubeCandidate that_scatters_by(double scatter) {
 }
 
 std::vector<double> scatters_left(const std::vector<double>& scatters) {
-  std::vector<std::vector<TubeCandidate>> of_kinds(1);
+  CandidatesByKind of_kinds(1);
   for (const double scatter : scatters) of_kinds[0].push_back(that_scatters_by(scatter));
-  drop_what_is_no_tube(of_kinds, {.shape = Support::Shape::nothing});
+  take_what_is_no_tube(of_kinds, {.shape = Support::Shape::nothing});
   std::vector<double> left;
   for (const TubeCandidate& candidate : of_kinds[0])
     left.push_back(candidate.surface->scatter / test::radius);
@@ -50,12 +51,12 @@ TEST(Candidates, MayScatterALittleHoweverSmoothTheOthersAre) {
 
 // The radii, in known ones, of the tubes that are taken out as foreign from tubes that show these.
 std::vector<double> foreign_of(const std::vector<double>& seen) {
-  std::vector<std::vector<TubeCandidate>> of_kinds(1);
+  CandidatesByKind of_kinds(1);
   for (const double radius : seen) {
     of_kinds[0].push_back(that_scatters_by(0));
     of_kinds[0].back().seen = {{.radius = radius * test::radius, .error = 0.02 * test::radius, .pieces = 20}};
   }
-  const auto foreign = take_foreign(of_kinds, {{.radius = test::radius}});
+  const auto foreign = take_foreign(of_kinds, CandidatesByKind(1), {{.radius = test::radius}});
   std::vector<double> radii;
   for (const ForeignTube& tube : foreign[0]) radii.push_back(tube.radius / test::radius);
   EXPECT_EQ(of_kinds[0].size() + radii.size(), seen.size());
@@ -79,14 +80,33 @@ TEST(Candidates, AreNotForeignWhereMostDoNotShowTheKnownRadius) {
   EXPECT_THAT(foreign_of({0.85, 0.86, 0.84, 0.76, 0.6}), IsEmpty());
 }
 
+// On a table, a tube of another radius looks like none of the known ones. Noise on a floor does, too, and
+// shows a radius only badly.
+TEST(Candidates, ThatAreNoneOfTheKnownTubesAreForeignIfTheyShowARadiusWell) {
+  for (const double error : {0.02, 0.1}) {
+    CandidatesByKind of_kinds(1);
+    for (const double radius : {1.0, 0.98, 1.02, 0.5}) {
+      of_kinds[0].push_back(that_scatters_by(0));
+      of_kinds[0].back().seen = {
+          {.radius = radius * test::radius, .error = error * radius * test::radius, .pieces = 20}};
+    }
+    of_kinds[0].back().surface->roundness = 2;
+    CandidatesByKind odd = take_what_is_no_tube(of_kinds, {.shape = Support::Shape::plane});
+    EXPECT_EQ(odd[0].size(), 1U);
+    const auto foreign = take_foreign(of_kinds, std::move(odd), {{.radius = test::radius}});
+    EXPECT_EQ(of_kinds[0].size(), 3U);
+    EXPECT_EQ(foreign[0].size(), error < 0.05 ? 1U : 0U);
+  }
+}
+
 // Whether there can be a tube on the way from one place to another, beside a bin that is known to 5 mm.
 bool may_be_a_tube(const std::vector<Eigen::Vector3d>& way) {
-  std::vector<std::vector<TubeCandidate>> of_kinds(1);
+  CandidatesByKind of_kinds(1);
   of_kinds[0].push_back(that_scatters_by(0));
   of_kinds[0].back().tube = test::chain(1, test::radius, way);
   Support support = test::paper_scene().support;
   support.margin = 0.005;
-  drop_what_is_no_tube(of_kinds, support);
+  take_what_is_no_tube(of_kinds, support);
   return !of_kinds[0].empty();
 }
 
@@ -110,11 +130,11 @@ TEST(Candidates, AreNoTubeIfTheyLieAlongTheRim) {
 // A wall, which is flat, in a bin that is not exactly a box.
 TEST(Candidates, AreNoTubeInABinWithAMarginIfTheyAreNotRound) {
   for (const double margin : {0.0, 0.005}) {
-    std::vector<std::vector<TubeCandidate>> of_kinds(1);
+    CandidatesByKind of_kinds(1);
     of_kinds[0].push_back(that_scatters_by(0));
     of_kinds[0].push_back(that_scatters_by(0));
     of_kinds[0].front().surface->roundness = 0;
-    drop_what_is_no_tube(of_kinds, {.shape = Support::Shape::bin, .margin = margin});
+    take_what_is_no_tube(of_kinds, {.shape = Support::Shape::bin, .margin = margin});
     EXPECT_EQ(of_kinds[0].size(), margin > 0 ? 1U : 2U);
   }
 }
@@ -123,12 +143,12 @@ TEST(Candidates, AreNoTubeInABinWithAMarginIfTheyAreNotRound) {
 // piece of a floor that is not known as such looks like that, too.
 TEST(Candidates, MayShowAsLittleRoundnessAsANarrowStripCan) {
   for (const auto shape : {Support::Shape::plane, Support::Shape::nothing}) {
-    std::vector<std::vector<TubeCandidate>> of_kinds(1);
+    CandidatesByKind of_kinds(1);
     of_kinds[0].push_back(that_scatters_by(0));
     of_kinds[0].front().surface->roundness = 0.4;
     of_kinds[0].push_back(of_kinds[0].front());
     of_kinds[0].back().surface->roundness_of_a_tube = 0.5;
-    drop_what_is_no_tube(of_kinds, {.shape = shape});
+    take_what_is_no_tube(of_kinds, {.shape = shape});
     EXPECT_EQ(of_kinds[0].size(), shape == Support::Shape::plane ? 1U : 0U);
   }
 }
