@@ -155,8 +155,7 @@ void add_locate(CLI::App& app) {
       "Example:\n  tanglebin locate scan.ply --scene scene.toml --out located.toml\n"
       "  tanglebin model scan.ply --scene located.toml --out labelled.ply\n"
       "The scene's [support] has the shape, and the sizes of a bin; its pose is only a guess. Where the bin "
-      "is "
-      "not found surely,\nthe program says what it saw and exits with 2 (docs/real-scans.md).");
+      "is not found surely,\nthe program says what it saw and exits with 2 (docs/real-scans.md).");
   command->callback([arguments] { locate_in_cloud(*arguments); });
 }
 

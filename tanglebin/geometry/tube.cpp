@@ -72,27 +72,27 @@ Eigen::Quaterniond rotation_from_z(const Eigen::Vector3d& direction) {
       Eigen::AngleAxisd(angle, sine > 0 ? Eigen::Vector3d(axis / sine) : Eigen::Vector3d::UnitX()));
 }
 
-std::vector<bool> flat_nodes(const Tube& tube) {
+std::vector<bool> outermost_nodes(const Tube& tube) {
   std::vector<int> edges_at(tube.nodes.size());
   for (const Edge& edge : tube.edges) {
     ++edges_at[edge.from];
     ++edges_at[edge.to];
   }
-  std::vector<bool> flat(tube.nodes.size());
-  for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = tube.flat_ends && edges_at[i] == 1;
-  return flat;
+  std::vector<bool> outermost(tube.nodes.size());
+  for (std::size_t i = 0; i < outermost.size(); ++i) outermost[i] = edges_at[i] == 1;
+  return outermost;
 }
 
 std::vector<Capsule> capsules(const Tube& tube) {
   std::vector<Capsule> result;
   result.reserve(tube.edges.size());
-  const std::vector<bool> flat = flat_nodes(tube);
+  const std::vector<bool> is_end = outermost_nodes(tube);
   for (const Edge& edge : tube.edges) {
     result.push_back({.a = tube.nodes[edge.from].position,
                       .b = tube.nodes[edge.to].position,
                       .radius = tube.radius,
-                      .flat_at_a = flat[edge.from],
-                      .flat_at_b = flat[edge.to]});
+                      .flat_at_a = tube.flat_ends && is_end[edge.from],
+                      .flat_at_b = tube.flat_ends && is_end[edge.to]});
   }
   return result;
 }

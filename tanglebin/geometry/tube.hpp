@@ -54,8 +54,8 @@ EdgeFrame frame_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 /// The shortest rotation that turns +z onto a unit vector; about x by π for −z.
 Eigen::Quaterniond rotation_from_z(const Eigen::Vector3d& direction);
 
-/// For each node, whether the tube is cut flat there.
-std::vector<bool> flat_nodes(const Tube& tube);
+/// For each node, whether it is an end of the tube: it has one edge.
+std::vector<bool> outermost_nodes(const Tube& tube);
 
 /// The capsules of all edges, in their order, cut where the tube is.
 std::vector<Capsule> capsules(const Tube& tube);

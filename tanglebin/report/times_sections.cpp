@@ -126,8 +126,7 @@ HtmlTable table_2(const Results& results, const RunGroup& group) {
   const std::vector<int> tube_counts = distinct(times, [](const RunTime& time) { return tubes_of(time); });
   HtmlTable table{.caption_html = fmt::format(
                       "<b>{}{}.</b> Mean time to model the tubes of a case, in seconds. Rows: downsampling "
-                      "ratio. Columns: "
-                      "number of tubes{}.",
+                      "ratio. Columns: number of tubes{}.",
                       results.is_papers ? "Table 2, " : "", escaped(group_text(group, results)),
                       results.is_papers && group.set == "A" ? ". Publ.: the paper's Table 2" : ""),
                   .columns = table_2_columns(results, group.set, tube_counts),

@@ -271,23 +271,9 @@ void move(PointCloud& cloud, const Isometry3d& motion) {
   for (Eigen::Vector3f& point : cloud.points) point = (motion * point.cast<double>()).cast<float>();
 }
 
-// Thin tubes that are not looked for leave something else that seems to have a radius.
-RadiusEstimate estimate_in_usual_range(const PointCloud& cloud, const KnownScene& known,
-                                       const std::function<void()>& at_place) {
-  const RadiusRange usual;
-  try {
-    return estimate_radius(cloud, known, usual, at_place);
-  } catch (const InputError& error) {
-    throw InputError(error.place(),
-                     fmt::format("{}; only radii of {:.3g} to {:.3g} mm were looked for: for others, "
-                                 "radius = {{ min, max }} in [[tube]]",
-                                 error.problem(), 1000 * usual.min, 1000 * usual.max));
-  }
-}
-
 RadiusEstimate radius_from(const PointCloud& cloud, const KnownScene& known,
                            const std::optional<LengthRange>& range, const std::function<void()>& at_place) {
-  if (!range) return estimate_in_usual_range(cloud, known, at_place);
+  if (!range) return estimate_radius(cloud, known, {}, at_place);
   RadiusEstimate found = estimate_radius(cloud, known, {range->min, range->max}, at_place);
   constexpr double deviations = 3;
   const double error = deviations * found.standard_error;

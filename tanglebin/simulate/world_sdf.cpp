@@ -226,9 +226,10 @@ void write_tube(XMLPrinter& xml, const Tube& tube, const Surface& surface) {
   const Element link(xml, "link", "body");
   write_inertial(xml, properties);
   for (const Edge& edge : tube.edges) write_cylinder(xml, tube, edge, properties.centre, surface);
-  const std::vector<bool> flat = flat_nodes(tube);
+  const std::vector<bool> is_end = outermost_nodes(tube);
   for (std::size_t i = 0; i < tube.nodes.size(); ++i) {
-    if (!flat[i]) write_sphere(xml, tube, tube.nodes[i], properties.centre, surface);
+    const bool is_flat = tube.flat_ends && is_end[i];
+    if (!is_flat) write_sphere(xml, tube, tube.nodes[i], properties.centre, surface);
   }
 }
 

@@ -374,8 +374,7 @@ TEST_F(Generate, BadInputIsExitStatusTwoAndOneLine) {
   expect_error("generate " + (directory_ / "none.toml").string() + " --out " + out(), "none.toml: ");
   expect_error(command("--set C"),
                "recipe.toml: no case matches --set, --tubes and --cases; there are set A with 1-2 tubes and "
-               "cases 1-3; "
-               "set B with 1 tubes and cases 1-3");
+               "cases 1-3; set B with 1 tubes and cases 1-3");
   expect_error(command("--cases 3-1"),
                "--cases: found '3-1', expected numbers from 1, and ranges, such as 1,5,10-20");
   expect_error(command("--shard 3/2"),

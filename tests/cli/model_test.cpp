@@ -289,8 +289,7 @@ TEST_F(ModelCommand, RefusesWhatItCannotModel) {
        "--method: the paper's method handles a single radius"},
       {model_without_scene("scan.ply", ""),
        "scan.ply: camera: found neither the camera's intrinsics nor an organized cloud, which shows them, "
-       "expected "
-       "--camera FILE"},
+       "expected --camera FILE"},
       {model_without_scene("scan.ply", "--scene bucket.toml"), "--scene: found nothing called 'bucket.toml'"},
       {model("scan.ply", "--frame robot"), "--frame: found 'robot', expected camera or world"},
       {model("scan.ply", "--unit cm"), "--unit: found 'cm', expected m or mm"},

@@ -286,8 +286,7 @@ TEST(ReadDepthPng, OfFewBytesCannotHoldManyPixels) {
 TEST(ReadDepths, IntegersNeedTheirScale) {
   const std::string expected =
       "depth: steps per metre: found nothing, expected how many steps of the image's integers are a metre: "
-      "1000 "
-      "for millimetres";
+      "1000 for millimetres";
   EXPECT_EQ(complaint_about(png_of({1, 2, 3, 4, 5, 6})), expected);
   EXPECT_EQ(complaint_about(npy(header_of("<u2", "(1, 1)"), std::string(2, '\0'))), expected);
   EXPECT_EQ(complaint_about(png_of({1, 2, 3, 4, 5, 6}), 0),

@@ -353,8 +353,7 @@ TEST(ReadPly, SaysWhatIsWrongWithAHeader) {
 TEST(ReadPly, SaysWhatIsWrongWithAFormatLine) {
   EXPECT_EQ(complaint_about("ply\nformat ascii\n"),
             "cloud.ply:2: format: found 1 words, expected ascii, binary_little_endian or binary_big_endian, "
-            "version "
-            "1.0");
+            "version 1.0");
   EXPECT_EQ(complaint_about("ply\nformat binary 1.0\n"),
             "cloud.ply:2: format: found 'binary', expected ascii, binary_little_endian or binary_big_endian, "
             "version 1.0");

@@ -60,8 +60,7 @@ TEST(Doubts, AboutMoreTubesThanTheBinHolds) {
 TEST(Doubts, AboutTubesHeavierThanMetal) {
   const std::string heavy =
       "[[set]]\nname = \"grams\"\ntubes = [2]\n[set.tube]\nradius = 0.0125\nmass = 500\nlength = "
-      "0.5\nbend_max_deg "
-      "= 30\n";
+      "0.5\nbend_max_deg = 30\n";
   EXPECT_THAT(
       doubts_about(heavy),
       ElementsAre("set grams: a tube has 2.04e+06 kg/m³, more than the densest metal, 2.26e+04 kg/m³"));

@@ -215,10 +215,8 @@ TEST_F(ToldScene, WhatTheCloudDoesNotShowMustBeSaid) {
       {complaint([&] { resolve(bin_and_tubes(), cloud()); }),
        "camera: found neither the camera's intrinsics nor an organized cloud, which shows them, expected "
        "--camera FILE (of ROS, Open3D, BOP or `tanglebin scan --depth`), or a scene file with [camera]. For "
-       "a "
-       "cloud that is no camera's image (of a line scanner, merged from several views), describe a camera "
-       "far "
-       "above it (docs/real-scans.md)"},
+       "a cloud that is no camera's image (of a line scanner, merged from several views), describe a camera "
+       "far above it (docs/real-scans.md)"},
       {complaint([&] { resolve(in_world, no_viewpoint); }),
        "camera: found points in the world frame, and nothing that says where the camera is"},
       {complaint([&] { resolve(with_camera({.intrinsics = intrinsics_of(camera())}), no_viewpoint); }),
@@ -298,7 +296,7 @@ TEST_F(ToldScene, PointsWhereTheSensorIsWereNotMeasured) {
   EXPECT_EQ(std::ranges::count_if(resolved.cloud.points, is_zero), 0);
 }
 
-// Of tubes of 1.25 mm, it might find another radius, or none.
+// Of tubes of 1.25 mm, it finds none.
 TEST_F(ToldScene, SaysWhichRadiiWereLookedFor) {
   Scene scene = with_camera({.intrinsics = intrinsics_of(camera()), .unit = 1});
   scene.support.reset();
@@ -306,9 +304,8 @@ TEST_F(ToldScene, SaysWhichRadiiWereLookedFor) {
   const PointCloud tiny = moved(in_camera_frame(cloud()), Eigen::Affine3d(Eigen::Scaling(0.1)));
   EXPECT_THAT(
       complaint([&] { resolve(scene, tiny); }),
-      HasSubstr(
-          "; give the radius; only radii of 2 to 60 mm were looked for: for others, radius = { min, max "
-          "} in [[tube]]"));
+      HasSubstr("; radii of 2 mm to 60 mm were looked for: give the radius, or another range, radius = { "
+                "min, max } in [[tube]]"));
 }
 
 TEST_F(ToldScene, ARadiusThatTheCloudDoesNotShowIsRefused) {

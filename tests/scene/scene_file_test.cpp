@@ -213,8 +213,7 @@ TEST(SceneFile, ErrorsNameLineAndKey) {
        "scene.toml:4: tube[1].radius: found 0.01 m for two kinds, expected a different radius for each"},
       {"[support]\nshape = \"bin\"\npreset = \"paper\"\n[[tube]]\nradius = 0.0125\nlength = 480\n",
        "scene.toml:6: tube[0].length: found 480 m, expected at most 6.92 m, ten times the bin's diagonal; "
-       "for 480 "
-       "mm write 0.48"},
+       "for 480 mm write 0.48"},
       {"[support]\nshape = \"bin\"\npreset = \"paper\"\n[[tube]]\nradius = 0.2\n",
        "scene.toml:5: tube[0].radius: found 0.2 m, expected less than 0.185 m"},
       {"[[tube]]\nradius = 0.01\nends = \"sharp\"\n",

@@ -24,14 +24,18 @@
 namespace tanglebin {
 namespace {
 
-[[noreturn]] void give_up(const std::string& reason) {
-  throw InputError({"", 0, "radius"}, reason + "; give the radius");
-}
-
 std::string millimetres(double metres) {
   const double value = 1e3 * metres;
   constexpr double two_digits = 99.5;  // above, {:.2g} writes 1e+02
   return value < two_digits ? fmt::format("{:.2g} mm", value) : fmt::format("{:.0f} mm", value);
+}
+
+// Tubes that are not looked for leave something else that seems to have a radius.
+[[noreturn]] void give_up(const RadiusRange& range, const std::string& reason) {
+  throw InputError({"", 0, "radius"},
+                   fmt::format("{}; radii of {} to {} were looked for: give the radius, or another range, "
+                               "radius = {{ min, max }} in [[tube]]",
+                               reason, millimetres(range.min), millimetres(range.max)));
 }
 
 void validate(const RadiusRange& range) {
@@ -158,14 +162,17 @@ constexpr std::size_t places_min = 3;
 [[noreturn]] void give_up_without_tubes(const PixelGrid& grid, const RadiusRange& range) {
   constexpr std::size_t points_min = 200;
   if (grid.size() < points_min)
-    give_up(fmt::format("the cloud shows too little of a tube to estimate it: {} points that may be on one",
+    give_up(range,
+            fmt::format("the cloud shows too little of a tube to estimate it: {} points that may be on one",
                         grid.size()));
   constexpr double pixels_min = 5;
   const double pixels = grid.pixels_across(1, grid.point(Everywhere(grid.size())[1]));
-  give_up(fmt::format(
-      "the cloud shows too little of a tube of {} to {} radius to estimate it (below {}, a tube "
-      "is less than {} pixels across)",
-      millimetres(range.min), millimetres(range.max), millimetres(pixels_min / 2 / pixels), pixels_min));
+  give_up(
+      range,
+      fmt::format("the cloud shows too little of a tube of {} to {} radius to estimate it (below {}, a tube "
+                  "is less than {} pixels across)",
+                  millimetres(range.min), millimetres(range.max), millimetres(pixels_min / 2 / pixels),
+                  pixels_min));
 }
 
 std::size_t separate_places(const PixelGrid& grid, const std::vector<Sighting>& sightings, double distance) {
@@ -212,13 +219,13 @@ RadiusEstimate refined(const PixelGrid& grid, double radius, const RadiusRange& 
     const double standard_error = of_median * scatter / std::sqrt(static_cast<double>(places));
     if (std::abs(next - radius) <= std::max(settled * next, standard_error)) {
       if (standard_error > uncertain * next)
-        give_up(
-            fmt::format("the radius is uncertain, {} ± {}", millimetres(next), millimetres(standard_error)));
+        give_up(range, fmt::format("the radius is uncertain, {} ± {}", millimetres(next),
+                                   millimetres(standard_error)));
       return {next, standard_error, scatter, round, places};
     }
     if (round == rounds_max)
-      give_up(
-          fmt::format("the estimate does not settle, at {} or {}", millimetres(radius), millimetres(next)));
+      give_up(range, fmt::format("the estimate does not settle, at {} or {}", millimetres(radius),
+                                 millimetres(next)));
     radius = next;
   }
 }
@@ -235,12 +242,12 @@ RadiusEstimate estimate_radius(const PointCloud& cloud, const KnownScene& known,
   if (sightings.size() < sightings_min) give_up_without_tubes(grid, range);
   const Histogram histogram(sightings);
   if (!histogram.has_a_peak())
-    give_up("no radius stands out in the cloud: the sensor may be too noisy for these tubes");
+    give_up(range, "no radius stands out in the cloud: the sensor may be too noisy for these tubes");
   const double radius = histogram.radius(histogram.highest());
   if (const auto other = histogram.other_peak()) {
     const auto [thin, thick] = std::minmax({radius, histogram.radius(*other)});
-    give_up(fmt::format("the cloud shows tubes of several radii, of about {} and {}", millimetres(thin),
-                        millimetres(thick)));
+    give_up(range, fmt::format("the cloud shows tubes of several radii, of about {} and {}",
+                               millimetres(thin), millimetres(thick)));
   }
   return refined(grid, radius, range, at_place);
 }

@@ -175,8 +175,7 @@ Fault fault_of_walls(const Agreement& agreement) {
     const WallCounts counts = counts_of_wall(agreement, wall, false);
     return fmt::format(
         "{}; {} is not where the sizes have it: of its pixels, {:.0f} % show it, {:.0f} % something behind "
-        "it "
-        "and {:.0f} % nothing",
+        "it and {:.0f} % nothing",
         walls_seen(agreement), name_of_wall(wall), percent(counts.explained, counts.expected),
         percent(counts.contradicted, counts.expected),
         percent(counts.expected - counts.explained - counts.contradicted - counts.hidden, counts.expected));
@@ -204,10 +203,8 @@ Fault fault_of_rim(const Agreement& agreement, const Bin& bin) {
   if (all.explained < shown_min * all.expected && empty > empty_max * all.expected)
     return fmt::format(
         "the rim is not in the cloud where the sizes have it: of its pixels, {:.0f} % show it and {:.0f} % "
-        "have "
-        "no point; was the cloud cropped to the inside of the bin? Leave the rim in it, or give the bin's "
-        "pose "
-        "and do not locate it",
+        "have no point; was the cloud cropped to the inside of the bin? Leave the rim in it, or give the "
+        "bin's pose and do not locate it",
         percent(all.explained, all.expected), percent(empty, all.expected));
   return fmt::format(
       "the rim is not {:.3f} m above the floor, or not {:.3f} m thick: of its pixels, {:.0f} % show it, "

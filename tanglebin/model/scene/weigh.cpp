@@ -23,12 +23,10 @@ using Eigen::Vector3d;
 class CentreLine {
 public:
   explicit CentreLine(const Tube& tube)
-      : tube_(tube), nearest_(capsules(tube)), parts_(tube.edges.size()), degrees_(tube.nodes.size()) {
+      : tube_(tube), nearest_(capsules(tube)), parts_(tube.edges.size()), is_end_(outermost_nodes(tube)) {
     for (std::size_t edge = 0; edge < tube.edges.size(); ++edge) {
       const double parts = std::max(1.0, std::round(length_of(edge) / tube.radius));
       parts_[edge].resize(static_cast<std::size_t>(parts));
-      ++degrees_[tube.edges[edge].from];
-      ++degrees_[tube.edges[edge].to];
     }
   }
 
@@ -42,7 +40,7 @@ public:
     constexpr double face = 0.3;  // radii
     const auto& [from, to, order] = tube_.edges[foot.capsule];
     const double margin = tube_.flat_ends ? face * tube_.radius / length_of(foot.capsule) : 0;
-    return (foot.t <= margin && degrees_[from] == 1) || (foot.t >= 1 - margin && degrees_[to] == 1);
+    return (foot.t <= margin && is_end_[from]) || (foot.t >= 1 - margin && is_end_[to]);
   }
 
   Vector3d direction_at(const Foot& foot) const { return way_of(foot.capsule).normalized(); }
@@ -71,7 +69,7 @@ private:
   const Tube& tube_;
   NearestAxis nearest_;
   std::vector<std::vector<std::uint8_t>> parts_;  // of each edge: 1 if it was seen
-  std::vector<int> degrees_;                      // of each node: how many edges it has
+  std::vector<bool> is_end_;                      // of each node
 };
 
 /// Finds the radius that fits points around a tube. Seen from one side, a tube that is too thin in the model

@@ -85,7 +85,7 @@ TEST(EstimateRadius, OfTubesOfSeveralRadiiIsAnError) {
   tubes.push_back(test::chain(5, 0.02, {{-0.2, -0.15, 0.02}, {0.2, -0.15, 0.02}}));
   EXPECT_THAT(test::complaint([&] { estimated(test::scanned(tubes)); }),
               testing::MatchesRegex("radius: the cloud shows tubes of several radii, of about 1[23] mm and "
-                                    "20 mm; give the radius"));
+                                    "20 mm; radii of 2 mm to 60 mm were looked for: give the radius, or .*"));
 }
 
 TEST(EstimateRadius, OfTooLittleIsAnError) {
@@ -94,9 +94,11 @@ TEST(EstimateRadius, OfTooLittleIsAnError) {
                 estimate_radius(floor, seen_without_support(test::small_camera()), {0.01, 0.123});
               }),
               testing::HasSubstr("too little of a tube of 10 mm to 123 mm radius"));
-  EXPECT_EQ(test::complaint([] { estimated(test::scanned({})); }),
-            "radius: the cloud shows too little of a tube to estimate it: 0 points that may be on one; give "
-            "the radius");
+  EXPECT_EQ(
+      test::complaint([] { estimated(test::scanned({})); }),
+      "radius: the cloud shows too little of a tube to estimate it: 0 points that may be on one; radii of "
+      "2 mm to 60 mm were looked for: give the radius, or another range, radius = { min, max } in "
+      "[[tube]]");
   const KnownScene known = seen_without_support(test::small_camera());
   for (const test::Surface& surface :
        {test::wavy_floor(0, 1), test::box({-0.05, -0.05, 0}, {0.05, 0.05, 0.05}),
