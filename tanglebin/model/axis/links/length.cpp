@@ -85,26 +85,36 @@ std::vector<Link> possible_links(double length, const std::vector<Fragment>& fra
   return links;
 }
 
-// How many of the chains, at most, are alike. Two tubes that are taken for one are as long as another by
-// chance, but seldom to within a few percent.
-std::size_t most_alike(const std::vector<Chain>& chains) {
+// The lengths of the chains that are alike, ascending: of as many as possible. Two tubes that are taken for
+// one are as long as another by chance, but seldom to within a few percent.
+std::vector<double> alike_lengths(const std::vector<Chain>& chains) {
   constexpr double alike = 1.03;
   std::vector<double> lengths;
   lengths.reserve(chains.size());
   for (const Chain& chain : chains) lengths.push_back(chain.length);
   std::ranges::sort(lengths);
   std::size_t most = 0;
+  std::size_t first_of_most = 0;
   std::size_t first = 0;
   for (std::size_t last = 0; last < lengths.size(); ++last) {
     while (lengths[last] > alike * lengths[first]) ++first;
-    most = std::max(most, last + 1 - first);
+    if (last + 1 - first <= most) continue;
+    most = last + 1 - first;
+    first_of_most = first;
   }
-  return most;
+  const auto begin = lengths.begin() + static_cast<std::ptrdiff_t>(first_of_most);
+  return {begin, begin + static_cast<std::ptrdiff_t>(most)};
+}
+
+// Chains whose ends are hidden are too short, so their mean is; the longest is too long, for noise.
+double upper_quartile(const std::vector<double>& ascending) {
+  return ascending[3 * ascending.size() / 4];
 }
 
 /// A length that was tried as though it had been told.
 struct Trial {
-  double length;       ///< m; of the longest of the chains that have it
+  double length;       ///< m, of the chains that have it
+  double longest;      ///< m, of the longest of them
   std::size_t chains;  ///< that have it
   double evidence;     ///< log odds
   double prior;        ///< log odds, of the links: fragments are parts of tubes more often than tubes
@@ -120,9 +130,11 @@ Trial trial_of(const TubeKind& kind, const std::vector<Fragment>& fragments, std
   const std::vector<Chain> chains =
       as_long_as(kind, chains_of(fragments, links, chosen.links, kind.radius, seen));
   const bool is_range = kind.length_min < kind.length();
-  const auto agreeing = static_cast<double>(is_range ? chains.size() : most_alike(chains));
+  const std::vector<double> alike = alike_lengths(chains);
+  const auto agreeing = static_cast<double>(is_range ? chains.size() : alike.size());
   const double prior = settings.chain_prior * static_cast<double>(chosen.links.size());
-  return {.length = chains.empty() ? length : std::ranges::max(chains, {}, &Chain::length).length,
+  return {.length = alike.empty() ? length : upper_quartile(alike),
+          .longest = chains.empty() ? length : std::ranges::max(chains, {}, &Chain::length).length,
           .chains = chains.size(),
           .evidence = chosen.log_odds - prior + of_a_chain * agreeing,
           .prior = prior};
@@ -201,14 +213,14 @@ TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, cons
   const bool is_sure = likeliest.chains >= enough;
   if (is_sure && !is_known) return of_length(kind, likeliest.length);
   if (is_known) {
-    const bool is_longer = likeliest.length > kind.length();
+    const bool is_longer = likeliest.longest > kind.length();
     if (is_sure && is_longer && evidence_for(kind, fragments, links, seen, settings) < likeliest.evidence)
-      kind.segments[0].length = likeliest.length;
+      kind.segments[0].length = likeliest.longest;
     return kind;
   }
   // The prior favours the largest length. That is right where none is sure: it must not take tubes apart.
   const auto with_prior = [](const Trial& trial) { return trial.evidence + trial.prior; };
-  kind.segments[0].length = std::max(std::ranges::max(trials, {}, with_prior).length, longest);
+  kind.segments[0].length = std::max(std::ranges::max(trials, {}, with_prior).longest, longest);
   return kind;
 }
 
