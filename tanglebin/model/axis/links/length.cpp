@@ -218,9 +218,11 @@ TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, cons
       kind.segments[0].length = likeliest.longest;
     return kind;
   }
-  // The prior favours the largest length. That is right where none is sure: it must not take tubes apart.
-  const auto with_prior = [](const Trial& trial) { return trial.evidence + trial.prior; };
-  kind.segments[0].length = std::max(std::ranges::max(trials, {}, with_prior).longest, longest);
+  // Without the prior, the largest length wins, which joins tubes that are not one. With all of it, a tube
+  // in pieces that no other tube is as long as falls apart.
+  constexpr double unsure = 0.75;
+  const auto evidence = [](const Trial& trial) { return trial.evidence + (1 - unsure) * trial.prior; };
+  kind.segments[0].length = std::max(std::ranges::max(trials, {}, evidence).longest, longest);
   return kind;
 }
 
