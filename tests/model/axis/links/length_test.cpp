@@ -184,6 +184,20 @@ TEST(WithLength, OfTubesThatDifferIsTheLargest) {
   EXPECT_EQ(found.model.tubes.size(), 3U);
 }
 
+// The ends of two tubes lie under two others. No three are alike, so no length is sure; but to go on from one
+// to another and back says little for a tube of a metre.
+TEST(WithLength, OfTubesThatDifferIsNotThatOfSeveralInOne) {
+  const double level = 3 * test::radius;
+  const AxisModel found =
+      modelled_with({test::chain(1, test::radius, {{-0.25, -0.1, test::radius}, {0.2, -0.1, test::radius}}),
+                     test::chain(2, test::radius, {{-0.2, 0.1, test::radius}, {0.2, 0.1, test::radius}}),
+                     test::chain(3, test::radius, {{-0.23, 0.17, level}, {-0.23, -0.17, level}}),
+                     test::chain(4, test::radius, {{0.23, -0.17, level}, {0.23, 0.12, level}})},
+                    0, infinite);
+  EXPECT_EQ(found.model.tubes.size(), 4U);
+  EXPECT_LT(found.kinds[0].kind.length(), 0.5);
+}
+
 // Its ends are against the walls, which hide nothing.
 TEST(WithLength, CountsATubeBetweenTheWallsAsWhole) {
   const AxisModel found =
