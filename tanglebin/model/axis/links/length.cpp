@@ -106,7 +106,7 @@ std::vector<double> alike_lengths(const std::vector<Chain>& chains) {
   return {begin, begin + static_cast<std::ptrdiff_t>(most)};
 }
 
-// Chains whose ends are hidden are too short, so their mean is; the longest is too long, for noise.
+// The mean would be too short, since ends are hidden; the longest is too long, since there is noise.
 double upper_quartile(const std::vector<double>& ascending) {
   return ascending[3 * ascending.size() / 4];
 }
@@ -218,10 +218,10 @@ TubeKind with_length(TubeKind kind, const std::vector<Fragment>& fragments, cons
       kind.segments[0].length = likeliest.longest;
     return kind;
   }
-  // Without the prior, the largest length wins, which joins tubes that are not one. With all of it, a tube
-  // in pieces that no other tube is as long as falls apart.
-  constexpr double unsure = 0.75;
-  const auto evidence = [](const Trial& trial) { return trial.evidence + (1 - unsure) * trial.prior; };
+  // With all of the prior, the largest length wins, and tubes that are not one are joined. Without it, a tube
+  // in pieces falls apart that no other is as long as.
+  constexpr double share = 0.25;
+  const auto evidence = [](const Trial& trial) { return trial.evidence + share * trial.prior; };
   kind.segments[0].length = std::max(std::ranges::max(trials, {}, evidence).longest, longest);
   return kind;
 }
