@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -118,17 +119,20 @@ double coverage(const std::vector<CentreLine>& truth, const std::vector<Tube>& m
   return all.covered / all.length;
 }
 
-// The relative length error of each true tube that a modelled one covers almost from end to end.
+// The relative length error of each true tube that a modelled one covers almost from end to end. If several
+// do, such as one that goes on to another tube, it is that of the nearest length.
 std::vector<double> length_errors(const std::vector<CentreLine>& truth, const std::vector<Tube>& modelled) {
   constexpr double nearly = 0.95;
   std::vector<double> errors;
   for (const CentreLine& line : truth) {
+    std::optional<double> least;
     for (const Tube& tube : modelled) {
       const auto [covered, length] = covered_part(line, capsules(tube));
       if (covered <= nearly * length) continue;
-      errors.push_back(std::abs(total_length(tube) / length - 1));
-      break;
+      const double error = std::abs(total_length(tube) / length - 1);
+      least = std::min(least.value_or(error), error);
     }
+    if (least) errors.push_back(*least);
   }
   return errors;
 }

@@ -109,6 +109,12 @@ TEST(CompleteTubes, AreCoveredByOneModelledTubeAndHaveALength) {
   EXPECT_FALSE(halves.length_error);
 }
 
+TEST(CompleteTubes, HaveTheNearestLengthOfThoseThatCoverThem) {
+  const Tube longer = tube_through({{0, 0, 0}, {0.6, 0, 0}});
+  EXPECT_NEAR(*score_tubes({straight}, {longer, straight}).length_error, 0, rounding);
+  EXPECT_NEAR(*score_tubes({straight}, {straight, longer}).length_error, 0, rounding);
+}
+
 TEST(Junctions, AreFoundWithinADiameter) {
   Tube tree = straight;
   add_branch(tree, 0, {{0, 0.1, 0}});
