@@ -123,13 +123,16 @@ double coverage(const std::vector<CentreLine>& truth, const std::vector<Tube>& m
 // do, such as one that goes on to another tube, it is that of the nearest length.
 std::vector<double> length_errors(const std::vector<CentreLine>& truth, const std::vector<Tube>& modelled) {
   constexpr double nearly = 0.95;
+  std::vector<std::vector<Capsule>> of_modelled;
+  of_modelled.reserve(modelled.size());
+  for (const Tube& tube : modelled) of_modelled.push_back(capsules(tube));
   std::vector<double> errors;
   for (const CentreLine& line : truth) {
     std::optional<double> least;
-    for (const Tube& tube : modelled) {
-      const auto [covered, length] = covered_part(line, capsules(tube));
+    for (std::size_t i = 0; i < modelled.size(); ++i) {
+      const auto [covered, length] = covered_part(line, of_modelled[i]);
       if (covered <= nearly * length) continue;
-      const double error = std::abs(total_length(tube) / length - 1);
+      const double error = std::abs(total_length(modelled[i]) / length - 1);
       least = std::min(least.value_or(error), error);
     }
     if (least) errors.push_back(*least);
