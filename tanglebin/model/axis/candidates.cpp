@@ -150,10 +150,13 @@ std::optional<double> foreign_radius(const std::vector<SeenRadius>& radii, const
 }
 
 // Noise on a floor is round, too, here and there.
-std::vector<SeenRadius> sure_of(std::vector<SeenRadius> radii) {
+void keep_sure_radii(CandidatesByKind& of_kinds) {
   constexpr double error_max = 0.05;  // radii
-  std::erase_if(radii, [&](const SeenRadius& seen) { return seen.error > error_max * seen.radius; });
-  return radii;
+  for (std::vector<TubeCandidate>& candidates : of_kinds) {
+    for (TubeCandidate& candidate : candidates)
+      std::erase_if(candidate.seen,
+                    [](const SeenRadius& seen) { return seen.error > error_max * seen.radius; });
+  }
 }
 
 }  // namespace
@@ -199,18 +202,17 @@ std::vector<std::vector<ForeignTube>> take_foreign(CandidatesByKind& of_kinds, C
   constexpr double tolerance = 0.1;
   const UsualRatio usual = usual_ratio(of_kinds);
   if (std::abs(usual.middle - 1) > tolerance) return foreign;
+  keep_sure_radii(odd);
   for (std::size_t kind = 0; kind < of_kinds.size(); ++kind) {
-    std::vector<TubeCandidate> known;
-    for (TubeCandidate& candidate : of_kinds[kind]) {
-      if (const std::optional<double> radius = foreign_radius(candidate.seen, kinds, usual))
-        foreign[kind].push_back({std::move(candidate), *radius});
-      else
-        known.push_back(std::move(candidate));
-    }
-    of_kinds[kind] = std::move(known);
-    for (TubeCandidate& candidate : odd[kind]) {
-      if (const std::optional<double> radius = foreign_radius(sure_of(candidate.seen), kinds, usual))
-        foreign[kind].push_back({std::move(candidate), *radius});
+    for (std::vector<TubeCandidate>* candidates : {&of_kinds[kind], &odd[kind]}) {
+      std::vector<TubeCandidate> rest;
+      for (TubeCandidate& candidate : *candidates) {
+        if (const std::optional<double> radius = foreign_radius(candidate.seen, kinds, usual))
+          foreign[kind].push_back({std::move(candidate), *radius});
+        else
+          rest.push_back(std::move(candidate));
+      }
+      *candidates = std::move(rest);
     }
   }
   return foreign;

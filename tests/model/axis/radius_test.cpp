@@ -85,7 +85,8 @@ TEST(EstimateRadius, OfTubesOfSeveralRadiiIsAnError) {
   tubes.push_back(test::chain(5, 0.02, {{-0.2, -0.15, 0.02}, {0.2, -0.15, 0.02}}));
   EXPECT_THAT(test::complaint([&] { estimated(test::scanned(tubes)); }),
               testing::MatchesRegex("radius: the cloud shows tubes of several radii, of about 1[23] mm and "
-                                    "20 mm; radii of 2 mm to 60 mm were looked for: give the radius, or .*"));
+                                    "20 mm; radii of 2 mm to 60 mm were looked for: give the radius, or "
+                                    "another range, radius = \\{ min, max \\} in \\[\\[tube\\]\\]"));
 }
 
 TEST(EstimateRadius, OfTooLittleIsAnError) {

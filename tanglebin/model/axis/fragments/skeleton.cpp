@@ -26,10 +26,11 @@ using Eigen::Vector3i;
 struct Voxel {
   Vector3i key;
   Vector3d sum = Vector3d::Zero();      // of its points
-  Vector3d mean = Vector3d::Zero();     // of its points
   Vector3d normals = Vector3d::Zero();  // sum of their normals
   std::size_t points = 0;
   std::vector<std::size_t> neighbours{};  // touching voxels
+
+  Vector3d mean() const { return sum / static_cast<double>(points); }
 };
 
 // One of each pair of opposite neighbours of a voxel.
@@ -83,7 +84,6 @@ VoxelGrid fill_voxels(const std::vector<Eigen::Vector3f>& points, const std::vec
     ++voxel.points;
     grid.of_points[i] = last;
   }
-  for (Voxel& voxel : grid.voxels) voxel.mean = voxel.sum / static_cast<double>(voxel.points);
   const auto offsets = half_of_the_neighbours();
   for (std::size_t i = 0; i < grid.voxels.size(); ++i) {
     for (const Vector3i& offset : offsets) {
@@ -186,7 +186,7 @@ private:
       queue.pop();
       if (distance > distances_[voxel]) continue;
       for (const std::size_t neighbour : voxels_[voxel].neighbours) {
-        const double through = distance + (voxels_[neighbour].mean - voxels_[voxel].mean).norm();
+        const double through = distance + (voxels_[neighbour].mean() - voxels_[voxel].mean()).norm();
         if (through >= distances_[neighbour]) continue;
         distances_[neighbour] = through;
         queue.push({through, neighbour});
@@ -327,7 +327,7 @@ Votes votes_in(const std::vector<Voxel>& grid, const std::vector<std::size_t>& v
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
   for (const std::size_t i : voxels) {
     const auto count = static_cast<double>(grid[i].points);
-    const Vector3d mean = grid[i].mean;
+    const Vector3d mean = grid[i].mean();
     votes.count += count;
     votes.mean += count * mean;
     votes.normal += grid[i].normals;
@@ -392,7 +392,7 @@ private:
     constexpr double rim = 1.1;  // radii
     constexpr double height_max = 0.3;
     constexpr double parallel_min = 0.95;
-    const Vector3d way = voxel.mean - disc.mean;
+    const Vector3d way = voxel.mean() - disc.mean;
     const double height = way.dot(disc.normal);
     return std::abs(height) < height_max * radius_ && (way - height * disc.normal).norm() > rim * radius_ &&
            voxel.normals.dot(disc.normal) > parallel_min * static_cast<double>(voxel.points);
@@ -505,7 +505,7 @@ private:
     for (const std::size_t member : component) {
       const Voxel& voxel = grid_.voxels[member];
       all += voxel.points;
-      if (nodes.any_within(settings_.spread_max, voxel.mean, [](std::size_t) { return true; }))
+      if (nodes.any_within(settings_.spread_max, voxel.mean(), [](std::size_t) { return true; }))
         near += voxel.points;
     }
     return static_cast<double>(near) >= settings_.share_min * static_cast<double>(all);

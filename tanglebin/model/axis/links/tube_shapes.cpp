@@ -247,9 +247,9 @@ double TubeShapes::misfit_with_straight(const Distances& tube) const {
 
 /// Where a part is on a known tube.
 struct TubeShapes::Match {
-  float squares;  // m², Sample::squares()
-  std::size_t tube;
-  Matches places;
+  float squares = std::numeric_limits<float>::infinity();  // m², Sample::squares()
+  std::size_t tube = 0;
+  Matches places{};
 };
 
 // For each place along a tube and either way round, the known tube that fits best there; the best of these
@@ -260,13 +260,10 @@ std::vector<TubeShapes::Match> TubeShapes::best_matches(const Sample& part) cons
   for (std::size_t tube = 0; tube < tubes_.size(); ++tube) {
     std::size_t place = 0;
     for_each_match(part, tubes_[tube], [&](const Matches& places) {
-      const float squares = part.squares(tubes_[tube], places);
-      if (place == matches.size()) {
-        matches.push_back({squares, tube, places});
-      } else if (squares < matches[place].squares) {
-        matches[place] = {squares, tube, places};
-      }
-      ++place;
+      if (place == matches.size()) matches.emplace_back();
+      Match& match = matches[place++];
+      const float squares = part.squares(tubes_[tube], places, match.squares);
+      if (squares < match.squares) match = {squares, tube, places};
       return true;
     });
   }
