@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "tanglebin/base/constants.hpp"
 #include "tanglebin/base/picked.hpp"
 #include "tanglebin/geometry/labels.hpp"
 #include "tanglebin/model/axis/candidates.hpp"
@@ -117,6 +118,7 @@ struct Scan {
   const Cropped& cropped;
   const KnownScene& known;
   const OtherSurfaces& others;
+  const std::vector<std::size_t>& ends_of_ramps;  ///< Ramps::ends; empty if the scanner makes none
 };
 
 // Adds the candidate's tube, and claims the points that it was fitted to.
@@ -145,6 +147,21 @@ void label(Model& model, std::vector<std::int32_t> claimed, const std::vector<Ax
   model.tubes.resize(known);
   std::ranges::replace_if(
       model.labels, [&](std::int32_t label) { return label > static_cast<std::int32_t>(known); }, null_label);
+}
+
+// A point on a ramp, between two tubes or beside one, is on the tube of which it has more, whatever is
+// nearest.
+void label_ramps(Model& model, const Scan& scan) {
+  if (scan.ends_of_ramps.empty()) return;
+  const std::vector<std::int32_t> of_surfaces = model.labels;
+  for (const std::size_t point : scan.cropped.kept) {
+    const std::size_t end = scan.ends_of_ramps[point];
+    if (end != no_index && of_surfaces[end] > bin_label) model.labels[point] = of_surfaces[end];
+  }
+  for (TubeEvidence& evidence : model.evidence) evidence.points = 0;
+  for (const std::int32_t label : model.labels) {
+    if (label > bin_label) ++model.evidence[static_cast<std::size_t>(label) - 1].points;
+  }
 }
 
 // The lengths that were found for sure where none was known.
@@ -278,7 +295,9 @@ AxisModel model_votes(const Voting& voting, const RangeImage& seen, const Scan& 
                      model.labels, [](std::int32_t label) { return label > bin_label; })),
                  "points");
   model.estimated_lengths = estimated_lengths(known, result.kinds);
+  // Confidence was learned with each point on the nearest tube.
   weigh(model, scan.cloud, with_lengths(known, model.estimated_lengths));
+  label_ramps(model, scan);
   return result;
 }
 
@@ -299,8 +318,9 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   const Cropped cropped = crop(cloud, known.support, given.filter);
   Voting voting{downsample(cropped.kept, ratio, seed), {}, {}};
   voting.points = picked(cloud.points, voting.filtered);
-  const Ramps ramps = ramps_in(cloud, known, given.ramp);
+  Ramps ramps = ramps_in(cloud, known, given.ramp);
   const bool has_ramps = ramps.blended >= given.ramp.blended_min;
+  if (!has_ramps) ramps.ends.clear();
   const AxisSettings settings = has_ramps ? given : for_sharp_edges(given);
   std::vector<Vector3f> voters = has_ramps ? without(ramps, voting.points, voting.filtered) : voting.points;
   clock.end_step("filter", voting.points.size(), "points");
@@ -318,7 +338,8 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   const OtherSurfaces others = other_surfaces(voting, known.support, cloud.points.size());
   std::vector<AxisModel> tries;
   const auto model_with = [&](double shift) {
-    return model_votes(voting, seen, {cloud, cropped, known, others}, settings, shift, tries, at_step);
+    return model_votes(voting, seen, {cloud, cropped, known, others, ramps.ends}, settings, shift, tries,
+                       at_step);
   };
   tries.push_back(model_with(0));
   for (const double shift : other_shifts) {

@@ -13,6 +13,7 @@
 #include "tanglebin/model/axis/tries.hpp"
 #include "tanglebin/score/score.hpp"
 #include "tanglebin/score/score_tubes.hpp"
+#include "tests/model/scene/ray_cast.hpp"
 #include "tests/model/scene/scanned.hpp"
 
 namespace tanglebin {
@@ -315,6 +316,43 @@ TEST(AxisMethod, FindsNothingInNoise) {
 double normal_number(Rng& rng) {
   const double radius = std::sqrt(-2 * std::log(1 - uniform_real(rng, 0, 1)));
   return radius * std::cos(2 * std::numbers::pi * uniform_real(rng, 0, 1));
+}
+
+// The depth of each pixel is the mean of five along its row. In the middle of an edge is the pixel's own
+// surface.
+TEST(AxisMethod, PutsAPointBetweenTwoTubesOnTheOneThatItHasMoreOf) {
+  constexpr double radius = 0.006;
+  const Camera camera = test::near_camera();
+  const PointCloud sharp =
+      test::seen_by(camera, {{1, test::flat_cylinder({-0.1, 0, 0}, {0.1, 0, 0}, radius)},
+                             {2, test::flat_cylinder({0, -0.1, 0.021}, {0, 0.1, 0.021}, radius)}});
+  PointCloud blended = sharp;
+  std::vector<std::size_t> between;
+  for (std::size_t i = 2; i + 2 < sharp.points.size(); ++i) {
+    const auto pixel = [&](std::size_t of) {
+      return seen_pixel(camera, sharp.points[of].cast<double>())->pixel;
+    };
+    const bool is_inside =
+        pixel(i - 2).row == pixel(i + 2).row && pixel(i - 2).column + 4 == pixel(i + 2).column;
+    if (!is_inside) continue;
+    double depth = 0;
+    for (std::size_t j = i - 2; j <= i + 2; ++j)
+      depth += depth_of(camera, sharp.points[j].cast<double>()) / 5;
+    const Ray ray = ray_through(camera, pixel(i).column, pixel(i).row);
+    const double scale = depth / depth_of(camera, ray.origin + ray.direction);
+    blended.points[i] = (ray.origin + scale * ray.direction).cast<float>();
+    if (sharp.labels[i - 2] != sharp.labels[i + 2]) between.push_back(i);
+  }
+  KnownScene known{.support = {.shape = Support::Shape::nothing}, .camera = camera};
+  known.kinds[0] = {.radius = radius, .segments = {{1, 2, 0.2}}, .flat_ends = true};
+  const Model model = model_by_axes(blended, known, 1, 1).model;
+  ASSERT_EQ(model.tubes.size(), 2U);
+  const bool is_first_one = model.labels.front() == sharp.labels.front();
+  const auto is_right = [&](std::size_t i) {
+    return model.labels[i] == (is_first_one ? sharp.labels[i] : 3 - sharp.labels[i]);
+  };
+  EXPECT_GT(between.size(), 100U);
+  EXPECT_TRUE(std::ranges::all_of(between, is_right));
 }
 
 TEST(AxisMethod, BearsNoise) {

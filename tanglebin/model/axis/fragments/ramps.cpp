@@ -7,6 +7,9 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
+
+#include "tanglebin/base/constants.hpp"
 
 namespace tanglebin {
 namespace {
@@ -90,7 +93,11 @@ struct Run {
 class RampFinder {
 public:
   RampFinder(const DepthGrid& grid, double pixel_angle, double radius, const RampSettings& settings)
-      : grid_(grid), pixel_angle_(pixel_angle), radius_(radius), settings_(settings) {}
+      : grid_(grid),
+        pixel_angle_(pixel_angle),
+        radius_(radius),
+        settings_(settings),
+        ends_(grid.depths.size(), no_index) {}
 
   void look_along_rows() {
     look_along({1, grid_.width}, [&](std::size_t pixel) { return pixel % grid_.width; });
@@ -99,17 +106,19 @@ public:
     look_along({grid_.width, grid_.height}, [&](std::size_t pixel) { return pixel / grid_.width; });
   }
 
-  Ramps found(const std::vector<ImagePoint>& points) const {
-    Ramps ramps{std::vector<bool>(points.size()), 0};
+  Ramps found(const std::vector<ImagePoint>& points) {
+    Ramps ramps{std::vector<bool>(points.size()), 0, std::vector(points.size(), no_index)};
     if (edges_ > 0) ramps.blended = static_cast<double>(blended_) / static_cast<double>(edges_);
     std::vector<std::uint8_t> marked(grid_.depths.size());
-    for (const Run& run : runs_) mark(run, marked);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!points[i].is_seen()) continue;
-      const std::size_t pixel = grid_.pixel_of(points[i]);
-      if (marked[pixel] == 0 || points[i].depth != grid_.depths[pixel]) continue;
-      ramps.points[i] = true;
-      marked[pixel] = 0;  // one point for each pixel
+    for (const Run& run : runs_) {
+      mark(run, marked);
+      if (!leads_nowhere(run)) find_ends(run);
+    }
+    const std::vector<std::size_t> of_pixels = nearest_points(points);
+    for (std::size_t pixel = 0; pixel < of_pixels.size(); ++pixel) {
+      if (marked[pixel] == 0 || of_pixels[pixel] == no_index) continue;
+      ramps.points[of_pixels[pixel]] = true;
+      if (ends_[pixel] != no_index) ramps.ends[of_pixels[pixel]] = of_pixels[ends_[pixel]];
     }
     return ramps;
   }
@@ -212,12 +221,46 @@ private:
     return static_cast<std::size_t>(std::lround(settings_.beside * length));
   }
 
-  void mark(const Run& run, std::vector<std::uint8_t>& pixels) const {
+  // The places, both included, that a run bends.
+  std::pair<std::size_t, std::size_t> bent_by(const Run& run) const {
     const std::size_t beside = reach_beside();
     const std::size_t first = run.begin + 1 > beside ? run.begin + 1 - beside : 0;
-    const std::size_t last = std::min(run.end - 1 + beside, run.line.count - 1);
+    return {first, std::min(run.end - 1 + beside, run.line.count - 1)};
+  }
+
+  void mark(const Run& run, std::vector<std::uint8_t>& pixels) const {
+    const auto [first, last] = bent_by(run);
     for (std::size_t i = first; i <= last; ++i) pixels[run.line[i]] = 1;
     if (leads_nowhere(run)) pixels[run.line[run.far_end()]] = 1;
+  }
+
+  // The ends of a ramp are the first places on either side that it does not bend, if they are seen.
+  void find_ends(const Run& run) {
+    const auto [first, last] = bent_by(run);
+    const auto is_seen = [&](std::size_t place) { return !std::isnan(depth(run, place)); };
+    const std::size_t before = first > 0 && is_seen(first - 1) ? first - 1 : run.begin;
+    const std::size_t after = last + 1 < run.line.count && is_seen(last + 1) ? last + 1 : run.end;
+    for (std::size_t i = first; i <= last; ++i) {
+      if (i == before || i == after) continue;
+      const auto away = [&](std::size_t pixel) {
+        return std::abs(grid_.depths[pixel] - grid_.depths[run.line[i]]);
+      };
+      std::size_t& nearest = ends_[run.line[i]];
+      for (const std::size_t end : {run.line[before], run.line[after]}) {
+        if (nearest == no_index || away(end) < away(nearest)) nearest = end;
+      }
+    }
+  }
+
+  // For each pixel the first point with its depth.
+  std::vector<std::size_t> nearest_points(const std::vector<ImagePoint>& points) const {
+    std::vector<std::size_t> of_pixels(grid_.depths.size(), no_index);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!points[i].is_seen()) continue;
+      const std::size_t pixel = grid_.pixel_of(points[i]);
+      if (of_pixels[pixel] == no_index && points[i].depth == grid_.depths[pixel]) of_pixels[pixel] = i;
+    }
+    return of_pixels;
   }
 
   const DepthGrid& grid_;
@@ -225,6 +268,7 @@ private:
   double radius_;       // m
   const RampSettings& settings_;
   std::vector<Run> runs_;
+  std::vector<std::size_t> ends_;  // of each pixel on a ramp, the pixel at an end that is nearest in depth
   std::size_t edges_ = 0;
   std::size_t blended_ = 0;  // edges
   std::size_t ramps_ = 0;    // from a surface to another
@@ -239,7 +283,7 @@ Ramps find_ramps(const std::vector<Eigen::Vector3f>& points, const Camera& camer
   const DepthGrid grid = depth_grid(seen);
   const double pixel_angle = 1 / std::max(camera.fx, camera.fy);
   if (is_mostly_deeper(grid, thinnest / (settings.pixels_min * pixel_angle)))
-    return {std::vector<bool>(points.size()), 0};
+    return {std::vector<bool>(points.size()), 0, std::vector(points.size(), no_index)};
   RampFinder finder(grid, pixel_angle, thickest, settings);
   finder.look_along_rows();
   finder.look_along_columns();

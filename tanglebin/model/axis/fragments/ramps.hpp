@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "tanglebin/geometry/camera.hpp"
@@ -13,6 +14,9 @@ struct Ramps {
   std::vector<bool>
       points;      ///< for each point: whether it is on a ramp, or so near that it may be bent by it
   double blended;  ///< share of the edges with a point half-way between their two surfaces
+  /// For each such point between two surfaces, the point at an end of its ramps that is nearest in depth: it
+  /// is a mean of both, and has more of that one. no_index for all other points.
+  std::vector<std::size_t> ends;
 };
 
 /// Finds ramps. A scanner that averages over an edge leaves a few points between the near surface and the far

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "tanglebin/base/constants.hpp"
 #include "tests/model/scene/scanned.hpp"
 
 namespace tanglebin {
@@ -83,6 +85,37 @@ TEST(Ramps, AreInAnImageOfOneColumnToo) {
   EXPECT_DOUBLE_EQ(ramps.blended, 1);
 }
 
+// The points at the ends of ramps, of which the points in the image's first row have more.
+std::vector<std::pair<std::size_t, std::size_t>> ends_in_first_row(const Ramps& ramps) {
+  std::vector<std::pair<std::size_t, std::size_t>> result;
+  for (std::size_t u = 0; u < size; ++u) {
+    if (ramps.ends[u] != no_index) result.emplace_back(u, ramps.ends[u]);
+  }
+  return result;
+}
+
+TEST(Ramps, HaveMoreOfTheSurfaceThatIsNearerInDepth) {
+  using testing::ElementsAre;
+  using testing::Pair;
+  const auto down = [](int u) { return u < 30 ? near : u == 30 ? 1.03 : u == 31 ? 1.06 : far; };
+  const RampSettings only_between{.beside = 0};
+  EXPECT_THAT(ends_in_first_row(ramps_of(down, only_between)), ElementsAre(Pair(30, 29), Pair(31, 32)));
+  const auto up = [&](int u) { return down(size - 1 - u); };
+  EXPECT_THAT(ends_in_first_row(ramps_of(up, only_between)), ElementsAre(Pair(28, 27), Pair(29, 30)));
+  EXPECT_THAT(ends_in_first_row(ramps_of(down)),
+              ElementsAre(Pair(29, 28), Pair(30, 28), Pair(31, 33), Pair(32, 33)));
+}
+
+TEST(Ramps, EndWhereThereIsASurfaceBesideThem) {
+  using testing::Pair;
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  const auto depth = [&](int u) {
+    return u < 29 ? nothing : u == 29 ? near : u == 30 ? 1.03 : u == 31 ? 1.06 : far;
+  };
+  EXPECT_THAT(ends_in_first_row(ramps_of(depth)),
+              testing::ElementsAre(Pair(30, 29), Pair(31, 33), Pair(32, 33)));
+}
+
 TEST(Ramps, BendWhatIsBesideThem) {
   const auto depth = [](int u) { return u < 30 ? near : u == 30 ? 1.03 : u == 31 ? 1.07 : far; };
   EXPECT_THAT(columns(ramps_of(depth)), testing::ElementsAre(29, 30, 31, 32));
@@ -114,6 +147,7 @@ TEST(Ramps, MayLeadNowhere) {
   const auto depth = [&](int u) { return u < 30 ? near : u == 30 ? 1.01 : u == 31 ? 1.02 : nothing; };
   const Ramps ramps = ramps_of(depth, {.beside = 0});
   EXPECT_THAT(columns(ramps), testing::ElementsAre(30, 31));
+  EXPECT_THAT(ends_in_first_row(ramps), testing::IsEmpty());
 }
 
 TEST(Ramps, AreNotInACloudOfFewPixels) {
