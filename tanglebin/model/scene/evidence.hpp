@@ -31,7 +31,7 @@ struct TubeEvidence {
   std::size_t kind = 0;         ///< index into KnownScene::kinds
   std::vector<TubeJoin> joins;  ///< empty for methods without odds (paper)
   std::size_t points = 0;       ///< with its label
-  double residual = 0;          ///< m, root mean square distance of these points from its surface
+  double residual = 0;          ///< m, root mean square distance of the points nearest to it from its surface
   double radius_error = 0;      ///< m, by how much a thicker tube would fit these points better, not counting
                                 ///< outliers; thinner: < 0
   double unevenness = 0;      ///< m, the same with outliers: large where points of other tubes are among them
