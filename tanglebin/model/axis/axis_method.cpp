@@ -77,6 +77,16 @@ std::vector<Vector3f> without(const Ramps& ramps, std::vector<Vector3f> points,
   return points;
 }
 
+// The points between two surfaces that the crop kept; none if the scanner makes no ramps.
+std::vector<BlendedPoint> blended_points(std::vector<BlendedPoint> between, bool has_ramps,
+                                         const Cropped& cropped) {
+  if (!has_ramps) return {};
+  std::erase_if(between, [&](const BlendedPoint& blended) {
+    return !std::ranges::binary_search(cropped.kept, blended.point);
+  });
+  return between;
+}
+
 // Without what keeps false votes out where a scanner makes ramps, and a few true ones.
 AxisSettings for_sharp_edges(AxisSettings settings) {
   settings.vote.facing_min = 0;
@@ -118,7 +128,7 @@ struct Scan {
   const Cropped& cropped;
   const KnownScene& known;
   const OtherSurfaces& others;
-  const std::vector<std::size_t>& ends_of_ramps;  ///< Ramps::ends; empty if the scanner makes none
+  const std::vector<BlendedPoint>& blended;
 };
 
 // Adds the candidate's tube, and claims the points that it was fitted to.
@@ -152,11 +162,10 @@ void label(Model& model, std::vector<std::int32_t> claimed, const std::vector<Ax
 // A point on a ramp, between two tubes or beside one, is on the tube of which it has more, whatever is
 // nearest.
 void label_ramps(Model& model, const Scan& scan) {
-  if (scan.ends_of_ramps.empty()) return;
+  if (scan.blended.empty()) return;
   const std::vector<std::int32_t> of_surfaces = model.labels;
-  for (const std::size_t point : scan.cropped.kept) {
-    const std::size_t end = scan.ends_of_ramps[point];
-    if (end != no_index && of_surfaces[end] > bin_label) model.labels[point] = of_surfaces[end];
+  for (const auto& [point, end] : scan.blended) {
+    if (of_surfaces[end] > bin_label) model.labels[point] = of_surfaces[end];
   }
   for (TubeEvidence& evidence : model.evidence) evidence.points = 0;
   for (const std::int32_t label : model.labels) {
@@ -320,7 +329,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   voting.points = picked(cloud.points, voting.filtered);
   Ramps ramps = ramps_in(cloud, known, given.ramp);
   const bool has_ramps = ramps.blended >= given.ramp.blended_min;
-  if (!has_ramps) ramps.ends.clear();
+  const std::vector<BlendedPoint> blended = blended_points(std::move(ramps.between), has_ramps, cropped);
   const AxisSettings settings = has_ramps ? given : for_sharp_edges(given);
   std::vector<Vector3f> voters = has_ramps ? without(ramps, voting.points, voting.filtered) : voting.points;
   clock.end_step("filter", voting.points.size(), "points");
@@ -338,7 +347,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   const OtherSurfaces others = other_surfaces(voting, known.support, cloud.points.size());
   std::vector<AxisModel> tries;
   const auto model_with = [&](double shift) {
-    return model_votes(voting, seen, {cloud, cropped, known, others, ramps.ends}, settings, shift, tries,
+    return model_votes(voting, seen, {cloud, cropped, known, others, blended}, settings, shift, tries,
                        at_step);
   };
   tries.push_back(model_with(0));

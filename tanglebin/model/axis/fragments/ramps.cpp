@@ -9,8 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "tanglebin/base/constants.hpp"
-
 namespace tanglebin {
 namespace {
 
@@ -32,12 +30,13 @@ std::vector<ImagePoint> seen_by(const Camera& camera, const std::vector<Eigen::V
   return result;
 }
 
-/// The depth of the nearest point in each pixel, of the part of the image that has points.
+/// The nearest point in each pixel, of the part of the image that has points.
 struct DepthGrid {
   PixelPosition first{};  // of the image
   std::size_t width = 0;
   std::size_t height = 0;
-  std::vector<float> depths{};  // m, row by row; NaN where there is no point
+  std::vector<float> depths{};          // m, row by row; NaN where there is no point
+  std::vector<std::uint32_t> points{};  // their numbers in the cloud
 
   std::size_t pixel_of(const ImagePoint& point) const {
     return static_cast<std::size_t>(point.pixel.row - first.row) * width +
@@ -54,10 +53,13 @@ DepthGrid depth_grid(const std::vector<ImagePoint>& points) {
   const Eigen::Matrix<std::size_t, 2, 1> size = (part.sizes() + Eigen::Vector2i::Ones()).cast<std::size_t>();
   DepthGrid grid{{part.min().x(), part.min().y()}, size.x(), size.y()};
   grid.depths.assign(grid.width * grid.height, std::numeric_limits<float>::quiet_NaN());
-  for (const ImagePoint& point : points) {
-    if (!point.is_seen()) continue;
-    float& nearest = grid.depths[grid.pixel_of(point)];
-    if (!(nearest <= point.depth)) nearest = point.depth;
+  grid.points.resize(grid.width * grid.height);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].is_seen()) continue;
+    const std::size_t pixel = grid.pixel_of(points[i]);
+    if (grid.depths[pixel] <= points[i].depth) continue;
+    grid.depths[pixel] = points[i].depth;
+    grid.points[pixel] = static_cast<std::uint32_t>(i);
   }
   return grid;
 }
@@ -93,11 +95,7 @@ struct Run {
 class RampFinder {
 public:
   RampFinder(const DepthGrid& grid, double pixel_angle, double radius, const RampSettings& settings)
-      : grid_(grid),
-        pixel_angle_(pixel_angle),
-        radius_(radius),
-        settings_(settings),
-        ends_(grid.depths.size(), no_index) {}
+      : grid_(grid), pixel_angle_(pixel_angle), radius_(radius), settings_(settings) {}
 
   void look_along_rows() {
     look_along({1, grid_.width}, [&](std::size_t pixel) { return pixel % grid_.width; });
@@ -106,20 +104,13 @@ public:
     look_along({grid_.width, grid_.height}, [&](std::size_t pixel) { return pixel / grid_.width; });
   }
 
-  Ramps found(const std::vector<ImagePoint>& points) {
-    Ramps ramps{std::vector<bool>(points.size()), 0, std::vector(points.size(), no_index)};
+  // Among this many points.
+  Ramps found(std::size_t points) const {
+    Ramps ramps{std::vector<bool>(points), 0, {}};
     if (edges_ > 0) ramps.blended = static_cast<double>(blended_) / static_cast<double>(edges_);
-    std::vector<std::uint8_t> marked(grid_.depths.size());
-    for (const Run& run : runs_) {
-      mark(run, marked);
-      if (!leads_nowhere(run)) find_ends(run);
-    }
-    const std::vector<std::size_t> of_pixels = nearest_points(points);
-    for (std::size_t pixel = 0; pixel < of_pixels.size(); ++pixel) {
-      if (marked[pixel] == 0 || of_pixels[pixel] == no_index) continue;
-      ramps.points[of_pixels[pixel]] = true;
-      if (ends_[pixel] != no_index) ramps.ends[of_pixels[pixel]] = of_pixels[ends_[pixel]];
-    }
+    for (const Run& run : runs_) mark(run, ramps.points);
+    for (const auto& [pixel, end] : nearest_ends())
+      ramps.between.push_back({grid_.points[pixel], grid_.points[end]});
     return ramps;
   }
 
@@ -228,39 +219,49 @@ private:
     return {first, std::min(run.end - 1 + beside, run.line.count - 1)};
   }
 
-  void mark(const Run& run, std::vector<std::uint8_t>& pixels) const {
+  void mark(const Run& run, std::vector<bool>& points) const {
+    const auto mark_at = [&](std::size_t place) {
+      const std::size_t pixel = run.line[place];
+      if (!std::isnan(grid_.depths[pixel])) points[grid_.points[pixel]] = true;
+    };
     const auto [first, last] = bent_by(run);
-    for (std::size_t i = first; i <= last; ++i) pixels[run.line[i]] = 1;
-    if (leads_nowhere(run)) pixels[run.line[run.far_end()]] = 1;
+    for (std::size_t place = first; place <= last; ++place) mark_at(place);
+    if (leads_nowhere(run)) mark_at(run.far_end());
   }
 
+  /// A pixel on a ramp, and one at an end of it.
+  struct PixelAndEnd {
+    std::size_t pixel;
+    std::size_t end;
+  };
+
   // The ends of a ramp are the first places on either side that it does not bend, if they are seen.
-  void find_ends(const Run& run) {
+  void find_ends(const Run& run, std::vector<PixelAndEnd>& ends) const {
     const auto [first, last] = bent_by(run);
     const auto is_seen = [&](std::size_t place) { return !std::isnan(depth(run, place)); };
     const std::size_t before = first > 0 && is_seen(first - 1) ? first - 1 : run.begin;
     const std::size_t after = last + 1 < run.line.count && is_seen(last + 1) ? last + 1 : run.end;
-    for (std::size_t i = first; i <= last; ++i) {
-      if (i == before || i == after) continue;
-      const auto away = [&](std::size_t pixel) {
-        return std::abs(grid_.depths[pixel] - grid_.depths[run.line[i]]);
-      };
-      std::size_t& nearest = ends_[run.line[i]];
-      for (const std::size_t end : {run.line[before], run.line[after]}) {
-        if (nearest == no_index || away(end) < away(nearest)) nearest = end;
-      }
+    for (std::size_t place = first; place <= last; ++place) {
+      if (place == before || place == after || !is_seen(place)) continue;
+      ends.push_back({run.line[place], run.line[before]});
+      ends.push_back({run.line[place], run.line[after]});
     }
   }
 
-  // For each pixel the first point with its depth.
-  std::vector<std::size_t> nearest_points(const std::vector<ImagePoint>& points) const {
-    std::vector<std::size_t> of_pixels(grid_.depths.size(), no_index);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!points[i].is_seen()) continue;
-      const std::size_t pixel = grid_.pixel_of(points[i]);
-      if (of_pixels[pixel] == no_index && points[i].depth == grid_.depths[pixel]) of_pixels[pixel] = i;
+  // For each pixel that is on a ramp or more, the end that is nearest in depth.
+  std::vector<PixelAndEnd> nearest_ends() const {
+    std::vector<PixelAndEnd> ends;
+    for (const Run& run : runs_) {
+      if (!leads_nowhere(run)) find_ends(run, ends);
     }
-    return of_pixels;
+    const auto away = [&](const PixelAndEnd& end) {
+      return std::abs(grid_.depths[end.end] - grid_.depths[end.pixel]);
+    };
+    std::ranges::stable_sort(ends, {},
+                             [&](const PixelAndEnd& end) { return std::pair(end.pixel, away(end)); });
+    const auto others = std::ranges::unique(ends, {}, &PixelAndEnd::pixel);
+    ends.erase(others.begin(), others.end());
+    return ends;
   }
 
   const DepthGrid& grid_;
@@ -268,7 +269,6 @@ private:
   double radius_;       // m
   const RampSettings& settings_;
   std::vector<Run> runs_;
-  std::vector<std::size_t> ends_;  // of each pixel on a ramp, the pixel at an end that is nearest in depth
   std::size_t edges_ = 0;
   std::size_t blended_ = 0;  // edges
   std::size_t ramps_ = 0;    // from a surface to another
@@ -283,11 +283,11 @@ Ramps find_ramps(const std::vector<Eigen::Vector3f>& points, const Camera& camer
   const DepthGrid grid = depth_grid(seen);
   const double pixel_angle = 1 / std::max(camera.fx, camera.fy);
   if (is_mostly_deeper(grid, thinnest / (settings.pixels_min * pixel_angle)))
-    return {std::vector<bool>(points.size()), 0, std::vector(points.size(), no_index)};
+    return {std::vector<bool>(points.size()), 0, {}};
   RampFinder finder(grid, pixel_angle, thickest, settings);
   finder.look_along_rows();
   finder.look_along_columns();
-  return finder.found(seen);
+  return finder.found(points.size());
 }
 
 }  // namespace tanglebin

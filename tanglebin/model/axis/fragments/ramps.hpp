@@ -9,14 +9,18 @@
 
 namespace tanglebin {
 
+/// A point between two surfaces is a mean of both. It has more of the one that is nearer to it in depth.
+struct BlendedPoint {
+  std::size_t point;
+  std::size_t end;  ///< the point at an end of its ramps that is nearest in depth
+};
+
 /// What a scanner makes of the edges of surfaces.
 struct Ramps {
   std::vector<bool>
       points;      ///< for each point: whether it is on a ramp, or so near that it may be bent by it
   double blended;  ///< share of the edges with a point half-way between their two surfaces
-  /// For each such point between two surfaces, the point at an end of its ramps that is nearest in depth: it
-  /// is a mean of both, and has more of that one. no_index for all other points.
-  std::vector<std::size_t> ends;
+  std::vector<BlendedPoint> between;  ///< those of the points that are between two surfaces
 };
 
 /// Finds ramps. A scanner that averages over an edge leaves a few points between the near surface and the far

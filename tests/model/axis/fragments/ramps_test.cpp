@@ -88,8 +88,8 @@ TEST(Ramps, AreInAnImageOfOneColumnToo) {
 // The points at the ends of ramps, of which the points in the image's first row have more.
 std::vector<std::pair<std::size_t, std::size_t>> ends_in_first_row(const Ramps& ramps) {
   std::vector<std::pair<std::size_t, std::size_t>> result;
-  for (std::size_t u = 0; u < size; ++u) {
-    if (ramps.ends[u] != no_index) result.emplace_back(u, ramps.ends[u]);
+  for (const auto& [point, end] : ramps.between) {
+    if (point < size) result.emplace_back(point, end);
   }
   return result;
 }
