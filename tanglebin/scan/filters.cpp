@@ -135,12 +135,12 @@ Scan median_filtered(const Scan& scan, int size) {
         continue;
       }
       const Pixel& donor = scan.pixels[median];
-      const bool is_filled = !is_measured(pixel);
-      if (is_filled) {
+      const bool is_of_another = !is_measured(pixel) || donor.label != pixel.label;
+      if (is_of_another) {
         pixel = donor;
         filtered.snr[own] = scan.snr[median];
       }
-      if (is_filled || donor.label != pixel.label || scan.mixed[median] != 0) filtered.mixed[own] = 1;
+      if (is_of_another || scan.mixed[median] != 0) filtered.mixed[own] = 1;
       move_to_depth(filtered, u, v, donor.depth);
     }
   }

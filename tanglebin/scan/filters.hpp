@@ -16,9 +16,9 @@ void quantize(Scan& scan, double step);
 
 /// Gives each pixel the median depth of the square window around it, `size` pixels wide, on its own ray. A
 /// pixel without a measurement counts as farther than all others, so if most of the window is lost, the pixel
-/// is lost; if not, a lost pixel is filled with the measurement that has the median depth: label, normal,
-/// incidence and signal too. A pixel with a depth of its own keeps these. It is marked as mixed if its new
-/// depth is that of a mixed pixel or of another surface.
+/// is lost. A lost pixel, and one whose ray met another surface than the measurement with the median depth,
+/// gets that one's label, normal, incidence and signal too, and is marked as mixed. Any other keeps these. It
+/// is marked as mixed if its new depth is that of a mixed pixel.
 Scan median_filtered(const Scan& scan, int size);
 
 }  // namespace tanglebin

@@ -29,6 +29,12 @@ struct Hit {
   LabelledHit first;
 };
 
+/// What a footprint sees of a tube, or of the bin.
+struct Share {
+  double signal;
+  Hit nearest;
+};
+
 /// What a pixel sees.
 struct Sight {
   double depth;
@@ -237,12 +243,12 @@ private:
     return hits > 0 && (hits < corners || farthest - nearest > sensor_.edge_jump);
   }
 
-  /// The nearest surface that the footprint's sub-rays hit, at the mean depth of all of them, weighted by
+  /// The surface of which the footprint's sub-rays see most, at the mean depth of all of them, weighted by
   /// signal. None if no signal returns.
   std::optional<Sight> see_mixture(double u, double v) {
     const int n = sensor_.sub_rays;
     const double step = sensor_.footprint / n;
-    std::optional<Hit> nearest;
+    shares_.clear();
     double signal = 0;
     double weighted_depth = 0;
     for (int row = 0; row < n; ++row) {
@@ -252,13 +258,31 @@ private:
         const double snr = snr_of(*hit);
         signal += snr;
         weighted_depth += snr * hit->depth;
-        if (!nearest || hit->depth < nearest->depth) nearest = hit;
+        add_to_shares(*hit, snr);
       }
     }
     if (!(signal > 0)) return std::nullopt;
-    const Vector3d& normal = nearest->first.surface.normal;
-    return Sight{weighted_depth / signal, normal,           incidence_of(nearest->ray, normal),
-                 nearest->first.label,    signal / (n * n), true};
+    const Hit& most = largest_share().nearest;
+    const Vector3d& normal = most.first.surface.normal;
+    return Sight{weighted_depth / signal, normal,           incidence_of(most.ray, normal),
+                 most.first.label,        signal / (n * n), true};
+  }
+
+  void add_to_shares(const Hit& hit, double signal) {
+    const auto share = std::ranges::find(shares_, hit.first.label,
+                                         [](const Share& other) { return other.nearest.first.label; });
+    if (share == shares_.end()) {
+      shares_.push_back({signal, hit});
+      return;
+    }
+    share->signal += signal;
+    if (hit.depth < share->nearest.depth) share->nearest = hit;
+  }
+
+  // Of two equal ones, the nearer.
+  const Share& largest_share() const {
+    return *std::ranges::max_element(
+        shares_, {}, [](const Share& share) { return std::pair(share.signal, -share.nearest.depth); });
   }
 
   void record(int u, int v, std::size_t i, const Sight& sight) {
@@ -298,6 +322,7 @@ private:
   int tile_top_ = 0;
   bool candidates_are_found_ = false;
   Candidates candidates_;
+  std::vector<Share> shares_;  // of the pixel that is being measured
 };
 
 }  // namespace

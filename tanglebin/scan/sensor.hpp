@@ -8,7 +8,8 @@ namespace tanglebin {
 enum class Edges {
   keep,  ///< nothing: the pixel is the ray through its centre
   drop,  ///< the pixel is lost
-  mix,   ///< it becomes a mixed pixel: the mean of the depths that it sees, weighted by signal
+  mix,  ///< it becomes a mixed pixel: the mean of the depths that it sees, weighted by signal, with the label
+        ///< of the surface that it sees most of
 };
 
 /// The errors of a real scanner, as terms that can be switched on one by one (docs/sensor.md). By default all

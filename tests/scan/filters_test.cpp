@@ -44,9 +44,9 @@ std::vector<float> depths_of(const Scan& scan) {
 TEST(Median, ALonePixelGoesWithItsNeighbours) {
   const Scan filtered = median_filtered(image_of(3, {1, 1, 1, 1, 5, 1, 1, 1, 1}), 3);
   EXPECT_EQ(filtered.at(1, 1).depth, 1.0F);
-  EXPECT_EQ(filtered.at(1, 1).label, 5) << "the label is what its ray met";
-  EXPECT_EQ(filtered.mixed[4], 1) << "but its depth is that of another surface";
-  EXPECT_EQ(filtered.snr[4], 5.0F);
+  EXPECT_EQ(filtered.at(1, 1).label, 1) << "of the surface whose depth it has";
+  EXPECT_EQ(filtered.snr[4], 1.0F);
+  EXPECT_EQ(filtered.mixed[4], 1) << "its ray met another one";
 }
 
 TEST(Median, AStraightEdgeStaysWhereItIs) {
