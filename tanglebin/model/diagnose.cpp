@@ -68,6 +68,7 @@ public:
       doubt_sensor();
     }
     doubt_fits();
+    doubt_tubes();
     doubt_pieces();
     doubt_unexplained();
     doubt_view();
@@ -87,6 +88,8 @@ private:
   void warn(std::string code, std::string message) {
     add(Finding::Severity::warning, std::move(code), std::move(message));
   }
+
+  bool has_support() const { return known_.support.shape != Support::Shape::nothing; }
 
   std::size_t valid() const { return counts_.all - counts_.invalid; }
   std::size_t unseen() const { return counts_.behind_camera + counts_.outside_image; }
@@ -242,18 +245,22 @@ private:
     return evidence.points >= points_min;
   }
 
+  static bool is_probable(const TubeEvidence& evidence) {
+    constexpr double probable = 0.5;
+    return evidence.confidence >= probable;
+  }
+
   // The median over the tubes that have enough points and are probably right; over all that have enough
   // points, if none is.
   template <typename Value>
   std::optional<double> median_of_tubes(Value value) const {
-    constexpr double probable = 0.5;
     std::vector<double> all;
     std::vector<double> right;
     for (std::size_t i = 0; i < model_.tubes.size(); ++i) {
       const TubeEvidence& evidence = model_.evidence[i];
       if (!is_clear(evidence)) continue;
       all.push_back(value(model_.tubes[i], evidence));
-      if (evidence.confidence >= probable) right.push_back(all.back());
+      if (is_probable(evidence)) right.push_back(all.back());
     }
     if (all.empty()) return std::nullopt;
     return median(right.empty() ? std::move(all) : std::move(right));
@@ -346,23 +353,32 @@ private:
             ids, 100 * worst, 100 * *usual));
   }
 
+  void doubt_tubes() {
+    const auto probable = std::ranges::count_if(model_.evidence, is_probable);
+    if (model_.tubes.empty() || 2 * probable > std::ssize(model_.tubes)) return;
+    warn("confidence",
+         fmt::format(
+             "{} of {} tubes are probably wrong: their confidence is below 0.5. Is the radius right, and "
+             "is there anything but such tubes?{}",
+             std::ssize(model_.tubes) - probable, model_.tubes.size(),
+             has_support() ? "" : " Give [support]: floor or walls may have been taken for tubes"));
+  }
+
   void doubt_pieces() {
     if (model_.pieces_left_out == 0) return;
-    const bool has_support = known_.support.shape != Support::Shape::nothing;
     warn("pieces",
          fmt::format(
              "{} pieces that may be tubes of radius {} were left out, the smallest: there are too many "
              "to compare, and most must be noise. {}",
              model_.pieces_left_out, radii(),
-             has_support ? "Is the radius right?"
-                         : "Is the radius right? Give [support]: what is on it is not looked at"));
+             has_support() ? "Is the radius right?"
+                           : "Is the radius right? Give [support]: what is on it is not looked at"));
   }
 
   // Where no support is known, floor and walls are on no tube either.
   void doubt_unexplained() {
     constexpr std::size_t share = 5;
-    if (known_.support.shape == Support::Shape::nothing) return;
-    if (model_.tubes.empty() || share * counts_.unexplained <= kept()) return;
+    if (!has_support() || model_.tubes.empty() || share * counts_.unexplained <= kept()) return;
     const char* others = ": are there other things, or tubes of another radius, to be declared as [[tube]]?";
     warn("unexplained",
          fmt::format("{} of the points looked at are on no tube{}", percent(counts_.unexplained, kept()),

@@ -400,6 +400,23 @@ TEST(Diagnose, WarnsOfNoise) {
   EXPECT_THAT(text_of(model_of(view).findings), HasSubstr("scatter"));
 }
 
+// As where a floor or walls of which nothing is known are taken for tubes.
+TEST(Diagnose, SaysThatHalfOfTheTubesAreProbablyWrong) {
+  const View view = right_view();
+  Model model = model_of(view);
+  model.evidence[0].confidence = 0.4;
+  EXPECT_EQ(text_of(diagnose(view.cloud, view.scene, model, 1)), "");
+  model.evidence[1].confidence = 0.1;
+  EXPECT_EQ(
+      text_of(diagnose(view.cloud, view.scene, model, 1)),
+      "warning confidence: 2 of 4 tubes are probably wrong: their confidence is below 0.5. Is the radius "
+      "right, and is there anything but such tubes?\n");
+  KnownScene nothing_known = view.scene;
+  nothing_known.support.shape = Support::Shape::nothing;
+  EXPECT_THAT(text_of(diagnose(view.cloud, nothing_known, model, 1)),
+              HasSubstr("Give [support]: floor or walls may have been taken for tubes"));
+}
+
 // Where nothing is known of a support, noise on a floor may fall into thousands of pieces.
 TEST(Diagnose, SaysThatThereAreTooManyPieces) {
   const View view = right_view();
