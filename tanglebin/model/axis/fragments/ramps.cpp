@@ -259,8 +259,10 @@ private:
     };
     std::ranges::stable_sort(ends, {},
                              [&](const PixelAndEnd& end) { return std::pair(end.pixel, away(end)); });
-    const auto others = std::ranges::unique(ends, {}, &PixelAndEnd::pixel);
-    ends.erase(others.begin(), others.end());
+    const auto are_of_one_pixel = [](const PixelAndEnd& a, const PixelAndEnd& b) {
+      return a.pixel == b.pixel;
+    };
+    ends.erase(std::unique(ends.begin(), ends.end(), are_of_one_pixel), ends.end());
     return ends;
   }
 
