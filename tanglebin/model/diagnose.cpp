@@ -157,9 +157,8 @@ private:
         : most == counts_.outside_image ? "are outside of the camera's image"
         : most == counts_.below_support
             ? fmt::format("are under the {}, {} deep in the median", floor(), metres(median_depth()))
-        : known_.support.shape == Support::Shape::nothing
-            ? "are more than 20 m from the camera"
-            : fmt::format("are far from the {}", name_of(known_.support.shape)));
+        : !has_support() ? "are more than 20 m from the camera"
+                         : fmt::format("are far from the {}", name_of(known_.support.shape)));
   }
 
   std::string floor() const {
@@ -245,10 +244,9 @@ private:
     return evidence.points >= points_min;
   }
 
-  static bool is_probable(const TubeEvidence& evidence) {
-    constexpr double probable = 0.5;
-    return evidence.confidence >= probable;
-  }
+  static constexpr double probable = 0.5;  // confidence
+
+  static bool is_probable(const TubeEvidence& evidence) { return evidence.confidence >= probable; }
 
   // The median over the tubes that have enough points and are probably right; over all that have enough
   // points, if none is.
@@ -354,13 +352,13 @@ private:
   }
 
   void doubt_tubes() {
-    const auto probable = std::ranges::count_if(model_.evidence, is_probable);
-    if (model_.tubes.empty() || 2 * probable > std::ssize(model_.tubes)) return;
+    const auto unlikely = std::ssize(model_.tubes) - std::ranges::count_if(model_.evidence, is_probable);
+    if (unlikely == 0 || 2 * unlikely < std::ssize(model_.tubes)) return;
     warn("confidence",
          fmt::format(
-             "{} of {} tubes are probably wrong: their confidence is below 0.5. Is the radius right, and "
+             "{} of {} tubes are probably wrong: their confidence is below {}. Is the radius right, and "
              "is there anything but such tubes?{}",
-             std::ssize(model_.tubes) - probable, model_.tubes.size(),
+             unlikely, model_.tubes.size(), probable,
              has_support() ? "" : " Give [support]: floor or walls may have been taken for tubes"));
   }
 

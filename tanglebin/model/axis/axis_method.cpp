@@ -77,10 +77,8 @@ std::vector<Vector3f> without(const Ramps& ramps, std::vector<Vector3f> points,
   return points;
 }
 
-// The points between two surfaces that the crop kept; none if the scanner makes no ramps.
-std::vector<BlendedPoint> blended_points(std::vector<BlendedPoint> between, bool has_ramps,
-                                         const Cropped& cropped) {
-  if (!has_ramps) return {};
+// The points that the crop kept.
+std::vector<BlendedPoint> kept(std::vector<BlendedPoint> between, const Cropped& cropped) {
   std::erase_if(between, [&](const BlendedPoint& blended) {
     return !std::ranges::binary_search(cropped.kept, blended.point);
   });
@@ -128,7 +126,7 @@ struct Scan {
   const Cropped& cropped;
   const KnownScene& known;
   const OtherSurfaces& others;
-  const std::vector<BlendedPoint>& blended;
+  const std::vector<BlendedPoint>& blended;  ///< of those kept; none if the scanner makes no ramps
 };
 
 // Adds the candidate's tube, and claims the points that it was fitted to.
@@ -329,7 +327,8 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   voting.points = picked(cloud.points, voting.filtered);
   Ramps ramps = ramps_in(cloud, known, given.ramp);
   const bool has_ramps = ramps.blended >= given.ramp.blended_min;
-  const std::vector<BlendedPoint> blended = blended_points(std::move(ramps.between), has_ramps, cropped);
+  const std::vector<BlendedPoint> blended =
+      has_ramps ? kept(std::move(ramps.between), cropped) : std::vector<BlendedPoint>{};
   const AxisSettings settings = has_ramps ? given : for_sharp_edges(given);
   std::vector<Vector3f> voters = has_ramps ? without(ramps, voting.points, voting.filtered) : voting.points;
   clock.end_step("filter", voting.points.size(), "points");
