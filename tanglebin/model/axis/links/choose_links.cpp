@@ -116,20 +116,37 @@ bool exchange_for(const LinkCandidates& candidates, Selection& selection, std::s
   return true;
 }
 
+// The links that are among the heaviest of one of their ends. Others are hardly ever worth an exchange, but
+// in a heap of bars they are most of the links.
+std::vector<std::size_t> heaviest_at_an_end(const LinkCandidates& candidates,
+                                            const std::vector<std::size_t>& links) {
+  constexpr int most = 12;
+  std::vector<int> heavier(candidates.vertices);
+  std::vector<std::size_t> heaviest;
+  std::ranges::copy_if(links, std::back_inserter(heaviest), [&](std::size_t i) {
+    const int of_first = heavier[candidates.pairs[i].first]++;
+    const int of_second = heavier[candidates.pairs[i].second]++;
+    return std::min(of_first, of_second) < most;
+  });
+  return heaviest;
+}
+
 // Repeatedly moves to a heavier selection, by exchanging links for each link in turn. There is a limit to the
 // tries where there are many links: between thousands of pieces of noise.
 void exchange(const LinkCandidates& candidates, Selection& selection, const std::vector<std::size_t>& all) {
   constexpr double rounding = 1e-9;
   constexpr std::size_t looks_max = 20'000'000;
   std::size_t tries_left = looks_max / std::max<std::size_t>(candidates.fragments.size(), 1);
+  const std::vector<std::size_t> tried = heaviest_at_an_end(candidates, all);
   std::size_t in_vain = 0;  // links tried since the last exchange
   Bound bound(candidates);
   selection.sum_weight_anew();
-  for (std::size_t i = 0; in_vain < all.size() && tries_left > 0; i = (i + 1) % all.size(), --tries_left) {
+  for (std::size_t i = 0; in_vain < tried.size() && tries_left > 0;
+       i = (i + 1) % tried.size(), --tries_left) {
     ++in_vain;
     const Selection::Mark before = selection.mark();
     const auto is_heavier = [&] { return selection.weight() > before.weight + rounding; };
-    if (exchange_for(candidates, selection, i, bound) && is_heavier()) {
+    if (exchange_for(candidates, selection, tried[i], bound) && is_heavier()) {
       selection.take_possible(all);
       // Without that, two selections that differ by rounding could follow each other for ever.
       selection.sum_weight_anew();
