@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include "tanglebin/cli/commands.hpp"
 #include "tanglebin/cli/options/arguments.hpp"
 #include "tanglebin/cli/options/outputs.hpp"
+#include "tanglebin/cli/options/scene_options.hpp"
 #include "tanglebin/cli/terminal/print.hpp"
 #include "tanglebin/dataset/versions.hpp"
 #include "tanglebin/experiment/learn_confidence.hpp"
@@ -30,6 +32,7 @@ struct LearnArguments {
   std::vector<std::string> datasets;
   std::optional<std::string> out;
   bool confidence = false;
+  std::optional<std::string> scene;
   bool json = false;
 };
 
@@ -40,8 +43,9 @@ std::vector<Output> outputs(const LearnArguments& arguments) {
 
 // The examples from all scanners' clouds of every case of the datasets.
 template <typename Example>
-std::vector<Example> examples_of(const std::vector<std::string>& datasets,
-                                 std::vector<Example> (*of_case)(const Dataset&, const SeenCase&)) {
+std::vector<Example> examples_of(
+    const std::vector<std::string>& datasets,
+    const std::function<std::vector<Example>(const Dataset&, const SeenCase&)>& of_case) {
   std::vector<Example> all;
   for (const std::string& directory : datasets) {
     const Dataset dataset = read_dataset(directory);
@@ -95,27 +99,52 @@ std::vector<Reliability> reliability(const std::vector<TubeExample>& examples) {
   return classes;
 }
 
+nlohmann::ordered_json json_of(const std::vector<Reliability>& classes) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& [from, tubes, right, sum] : classes)
+    json.push_back({{"from", from}, {"tubes", tubes}, {"mean_confidence", sum / tubes}, {"right", right}});
+  return json;
+}
+
+void print(const std::vector<Reliability>& classes, const std::string& title) {
+  print_out("{}:\n{:>6} {:>6} {:>6} {:>6}\n", title, "from", "tubes", "mean", "right");
+  for (const auto& [from, tubes, right, sum] : classes)
+    print_out("{:>6} {:>6} {:>6.3f} {:>6.3f}\n", from, tubes, sum / tubes,
+              static_cast<double>(right) / tubes);
+}
+
+std::vector<TubeExample> tubes_told(const Scene& scene, const std::vector<std::string>& datasets) {
+  return examples_of<TubeExample>(datasets, [&](const Dataset& dataset, const SeenCase& seen) {
+    return tube_examples(dataset, seen, scene);
+  });
+}
+
 void learn_for_tubes(const LearnArguments& arguments) {
-  const std::vector<TubeExample> examples = examples_of(arguments.datasets, tube_examples);
+  const std::optional<Scene> told =
+      arguments.scene ? std::optional(scene_named(*arguments.scene, "")) : std::nullopt;
+  std::vector<TubeExample> examples = tubes_told({}, arguments.datasets);
+  const std::vector<Reliability> classes = reliability(examples);
+  std::vector<Reliability> classes_told;
+  if (told) {
+    const std::vector<TubeExample> others = tubes_told(*told, arguments.datasets);
+    classes_told = reliability(others);
+    std::ranges::copy(others, std::back_inserter(examples));
+  }
   const ConfidenceFeatures weights = learn_confidence(examples);
   const auto right = std::ranges::count_if(examples, &TubeExample::is_right);
-  nlohmann::ordered_json json{{"tubes", examples.size()}, {"right", right}, {"weights", weights}};
-  for (const auto& [from, tubes, of_these_right, sum] : reliability(examples)) {
-    json["reliability"].push_back(
-        {{"from", from}, {"tubes", tubes}, {"mean_confidence", sum / tubes}, {"right", of_these_right}});
-  }
   if (arguments.json) {
+    nlohmann::ordered_json json{{"tubes", examples.size()},
+                                {"right", right},
+                                {"weights", weights},
+                                {"reliability", json_of(classes)}};
+    if (told) json["reliability_told_scene"] = json_of(classes_told);
     print_json_line(json);
     return;
   }
   print_out("confidence {{{:.4f}}}  from {} tubes, {} right\n", fmt::join(weights, ", "), examples.size(),
             right);
-  print_out("by the built-in confidence:\n{:>6} {:>6} {:>6} {:>6}\n", "from", "tubes", "mean", "right");
-  for (const auto& of : json["reliability"]) {
-    const double tubes = of["tubes"];
-    print_out("{:>6} {:>6} {:>6.3f} {:>6.3f}\n", of["from"].get<double>(), tubes,
-              of["mean_confidence"].get<double>(), of["right"].get<double>() / tubes);
-  }
+  print(classes, "by the built-in confidence");
+  if (told) print(classes_told, "the same, told " + *arguments.scene);
 }
 
 void write_weights(const LinkWeights& weights, const LearnArguments& arguments) {
@@ -127,7 +156,7 @@ void write_weights(const LinkWeights& weights, const LearnArguments& arguments) 
 }
 
 void learn_for_links(const LearnArguments& arguments) {
-  const std::vector<LinkScene> scenes = examples_of(arguments.datasets, link_scenes);
+  const std::vector<LinkScene> scenes = examples_of<LinkScene>(arguments.datasets, link_scenes);
   const LinkWeights weights = learn_weights(scenes);
   if (arguments.out) write_weights(weights, arguments);
   if (take_standard_output(outputs(arguments))) return;
@@ -154,6 +183,9 @@ std::vector<std::string> recipes_of(const std::vector<std::string>& datasets) {
 void learn(const LearnArguments& arguments) {
   if (arguments.confidence && arguments.out)
     throw InputError({"", 0, "--out"}, "a profile has the weights of links, not of --confidence");
+  if (arguments.scene && !arguments.confidence)
+    throw InputError({"", 0, "--scene"},
+                     "links are learned from what the recipe says; only --confidence has it");
   expect_outputs(outputs(arguments), recipes_of(arguments.datasets));
   for (const std::string& directory : arguments.datasets) expect_dataset(directory);
   arguments.confidence ? learn_for_tubes(arguments) : learn_for_links(arguments);
@@ -174,6 +206,11 @@ void add_learn(CLI::App& app) {
       "--confidence", arguments->confidence,
       "Learn the weights of a tube's confidence instead of those of links, and say how right the "
       "built-in confidence is");
+  command
+      ->add_option("--scene", arguments->scene,
+                   "With --confidence: model each scan once more, told what this scene file says in place of "
+                   "what the recipe says")
+      ->option_text("FILE");
   command->add_flag("--json", arguments->json, "Print the weights as JSON");
   command->footer(
       "Example:\n  tanglebin learn dataset --out profile.toml\n"

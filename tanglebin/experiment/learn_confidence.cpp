@@ -37,9 +37,9 @@ Eigen::Map<const ConfidenceVector> vector_of(const ConfidenceFeatures& features)
 
 }  // namespace
 
-std::vector<TubeExample> tube_examples(const Dataset& dataset, const SeenCase& seen) {
+std::vector<TubeExample> tube_examples(const Dataset& dataset, const SeenCase& seen, const Scene& told) {
   const CaseData data = read_seen_case(dataset, seen);
-  const KnownScene known = known_scene(recipe_seen(dataset, seen), seen.scene);
+  const KnownScene known = told_scene(recipe_seen(dataset, seen), data, seen.scene, told);
   const Model model = with_file(data.cloud_file, [&] { return model_tubes(data.cloud, known); });
   const std::vector<std::int32_t> truth = truth_labels(data.cloud, data.cloud_file);
   PointsOn all;
@@ -52,7 +52,7 @@ std::vector<TubeExample> tube_examples(const Dataset& dataset, const SeenCase& s
   std::vector<TubeExample> examples;
   for (std::size_t i = 0; i < model.tubes.size(); ++i) {
     const TubeEvidence& evidence = model.evidence[i];
-    examples.push_back({features_of(evidence, known.kinds[evidence.kind]), is_whole(on[i], all)});
+    examples.push_back({features_of(evidence, known), is_whole(on[i], all)});
   }
   return examples;
 }

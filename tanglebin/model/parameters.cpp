@@ -147,9 +147,12 @@ void for_each_parameter(Settings& settings, Visit visit) {
   visit({"axis.fragment.speck_max", "and those with less than this share of the points on a radius of length",
          up_to(100), by_factors(0.01, 1)},
         settings.axis.fragment.speck_max);
-  visit({"axis.fragment.sure_min", "share of points probably right; with less, votes are cut again", share,
-         by_steps(0, 1)},
-        settings.axis.fragment.sure_min);
+  visit({"axis.fragment.noisy_min", "radii, of the usual residual; with less, votes are not cut again",
+         up_to(100), by_factors(0.001, 1)},
+        settings.axis.fragment.noisy_min);
+  visit(
+      {"axis.fragment.sure_min", "share of points probably right; with more, neither", share, by_steps(0, 1)},
+      settings.axis.fragment.sure_min);
   visit({"axis.link.angle_max", "rad, α", up_to(100), by_steps(0.8, 6.3)}, settings.axis.link.angle_max);
   visit({"axis.link.length_tolerance", "how much longer than known a tube may be, as a fraction", up_to(100),
          by_factors(0.005, 0.2)},

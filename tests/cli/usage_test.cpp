@@ -98,6 +98,13 @@ TEST(Usage, SeedsAreDecimalOrHexadecimalEverywhere) {
   }
 }
 
+TEST(Usage, LearningLinksTakesNoScene) {
+  const ProgramResult run = run_program("learn /nowhere --scene /nowhere.toml");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err,
+              HasSubstr("--scene: links are learned from what the recipe says; only --confidence has it"));
+}
+
 TEST(Usage, ADirectoryWithoutADatasetIsNamed) {
   const test::TemporaryDirectory directory;
   const std::string empty = directory.path().string();

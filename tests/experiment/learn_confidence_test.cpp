@@ -22,11 +22,11 @@ Recipe finely_seen_recipe_with_blended_edges() {
 }
 
 TEST(LearnConfidence, FindsTheWeightsThatMadeTheExamples) {
-  const ConfidenceFeatures truth = {0.5, 2, -1, 0, 0, 0, 0, 0};
+  const ConfidenceFeatures truth = {0.5, 2, -1, 0, 0, 0, 0, 0, 0};
   Rng rng(3);
   std::vector<TubeExample> examples;
   for (int i = 0; i < 20'000; ++i) {
-    const ConfidenceFeatures features = {1, uniform_real(rng, -1, 1), uniform_real(rng, -1, 1), 0, 0, 0, 0,
+    const ConfidenceFeatures features = {1, uniform_real(rng, -1, 1), uniform_real(rng, -1, 1), 0, 0, 0, 0, 0,
                                          0};
     examples.push_back({features, uniform_real(rng, 0, 1) < confidence(features, truth)});
   }
@@ -35,7 +35,7 @@ TEST(LearnConfidence, FindsTheWeightsThatMadeTheExamples) {
 }
 
 TEST(LearnConfidence, StaysFiniteIfAllTubesAreRight) {
-  const std::vector<TubeExample> examples(100, {{1, 1, 0, 0, 0, 0, 0, 0}, true});
+  const std::vector<TubeExample> examples(100, {{1, 1, 0, 0, 0, 0, 0, 0, 0}, true});
   const ConfidenceFeatures learned = learn_confidence(examples);
   for (const double weight : learned) EXPECT_TRUE(std::isfinite(weight));
   EXPECT_GT(confidence(examples[0].features, learned), 0.98);
@@ -46,6 +46,17 @@ TEST(LearnConfidence, KnowsWhichTubesOfACaseAreWhole) {
   const std::vector<TubeExample> examples = tube_examples(dataset.read(), {{"A", 1, 1}, ""});
   ASSERT_EQ(examples.size(), 1U);
   EXPECT_TRUE(examples[0].is_right);
+}
+
+// The residual counts once more.
+TEST(LearnConfidence, ModelsACaseAsItIsTold) {
+  const test::SmallDataset dataset;
+  const Scene nothing{.support = Support{.shape = Support::Shape::nothing}};
+  const SeenCase seen{{"A", 1, 1}, ""};
+  const TubeExample in_bin = tube_examples(dataset.read(), seen).at(0);
+  const TubeExample anywhere = tube_examples(dataset.read(), seen, nothing).at(0);
+  EXPECT_EQ(in_bin.features.back(), 0);
+  EXPECT_GT(anywhere.features.back(), 0);
 }
 
 TEST(LearnConfidence, TakesATubeForWholeIfItLacksOnlyMixedPoints) {

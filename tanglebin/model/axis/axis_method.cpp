@@ -351,7 +351,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
   };
   tries.push_back(model_with(0));
   for (const double shift : other_shifts) {
-    if (!is_in_doubt(likeliest_of(tries).model, settings.fragment.sure_min)) break;
+    if (!is_in_doubt(likeliest_of(tries).model, settings.fragment)) break;
     tries.push_back(model_with(shift));
   }
   AxisModel& best = likeliest_of(tries);

@@ -5,6 +5,9 @@
 #include <cstddef>
 #include <iterator>
 #include <tuple>
+#include <utility>
+
+#include "tanglebin/base/median.hpp"
 
 namespace tanglebin {
 namespace {
@@ -25,6 +28,14 @@ std::ptrdiff_t known_shapes(const AxisModel& tried) {
   return std::ranges::count_if(tried.kinds, &TubeShapes::are_known, &AxisSteps::shapes);
 }
 
+// Of the tube that the point in the middle is on, in radii.
+double usual_residual(const Model& model) {
+  std::vector<std::pair<double, std::size_t>> residuals;
+  for (std::size_t i = 0; i < model.tubes.size(); ++i)
+    residuals.emplace_back(model.evidence[i].residual / model.tubes[i].radius, model.evidence[i].points);
+  return weighted_median(std::move(residuals));
+}
+
 }  // namespace
 
 double probably_right(const Model& model) {
@@ -33,12 +44,13 @@ double probably_right(const Model& model) {
   return sum;
 }
 
-bool is_in_doubt(const Model& model, double sure_min) {
+bool is_in_doubt(const Model& model, const FragmentSettings& settings) {
   constexpr double hopeless = 0.2;
   double points = 0;
   for (const TubeEvidence& tube : model.evidence) points += static_cast<double>(tube.points);
   const double right = probably_right(model);
-  return right < sure_min * points && right >= hopeless * points;
+  return right < settings.sure_min * points && right >= hopeless * points &&
+         usual_residual(model) >= settings.noisy_min;
 }
 
 TubeShapes shapes_in(const std::vector<AxisModel>& tries, std::size_t number, const TubeKind& kind) {

@@ -15,8 +15,9 @@ namespace tanglebin {
 double probably_right(const Model& model);
 
 /// Whether votes that are cut into other pieces may give a better model: where less than `sure_min` of the
-/// points on tubes are probably right. In a cloud of noise, they will not.
-bool is_in_doubt(const Model& model, double sure_min);
+/// points on tubes are probably right, and points are noisy: the residual of the tube that the point in the
+/// middle is on is at least `noisy_min`. In a cloud of nothing but noise, they will not.
+bool is_in_doubt(const Model& model, const FragmentSettings& settings);
 
 /// What one of the models, which has found the same length, knows of the shapes of tubes of this kind, the
 /// `number`th one. Nothing is known if none does.

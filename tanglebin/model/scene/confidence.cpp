@@ -6,21 +6,25 @@
 
 namespace tanglebin {
 
-ConfidenceFeatures features_of(const TubeEvidence& evidence, const TubeKind& kind) {
+ConfidenceFeatures features_of(const TubeEvidence& evidence, const KnownScene& known) {
+  const TubeKind& kind = known.kinds.at(evidence.kind);
   constexpr double tens = 10;
   constexpr double most = 2;
   double margin = most;
   for (const TubeJoin& join : evidence.joins) margin = std::min(margin, join.margin / tens);
   const double lacking = kind.length_min > 0 ? std::max(0.0, 1 - evidence.length / kind.length_min) : 0;
   const double excess = kind.length_is_known() ? std::max(0.0, evidence.length / kind.length() - 1) : 0;
+  const double residual = std::min(1.0, evidence.residual / kind.radius);
+  const bool is_support_known = known.support.shape != Support::Shape::nothing;
   return {1,
           margin,
           lacking,
           excess,
           1 - evidence.coverage(),
-          std::min(1.0, evidence.residual / kind.radius),
+          residual,
           std::min(1.0, std::abs(evidence.unevenness) / kind.radius),
-          std::log(std::max(1.0, evidence.visible_length / kind.radius))};
+          std::log(std::max(1.0, evidence.visible_length / kind.radius)),
+          is_support_known ? 0 : residual};
 }
 
 double confidence(const ConfidenceFeatures& features, const ConfidenceFeatures& weights) {

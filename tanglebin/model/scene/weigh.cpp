@@ -178,9 +178,8 @@ void weigh(TubeEvidence& evidence, const Tube& tube, const std::vector<Vector3d>
   evidence.unevenness = radius.error_with_outliers();
   evidence.length = total_length(tube);
   evidence.visible_length = line.seen_length();
-  const TubeKind& kind = known.kinds.at(evidence.kind);
-  evidence.length_fit = length_fit(evidence.length, kind);
-  evidence.confidence = confidence(features_of(evidence, kind));
+  evidence.length_fit = length_fit(evidence.length, known.kinds.at(evidence.kind));
+  evidence.confidence = confidence(features_of(evidence, known));
 }
 
 // Enough to meet each part of a centre line that is seen.

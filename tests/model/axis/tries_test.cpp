@@ -13,7 +13,9 @@ namespace {
 // Tubes of one kind, all on one tube of this confidence.
 AxisModel model_with(double length, double confidence, std::size_t points = 100) {
   AxisModel result;
-  result.model.evidence = {{.joins = {}, .points = points, .confidence = confidence}};
+  result.model.tubes.resize(1);
+  result.model.tubes[0].radius = 0.01;
+  result.model.evidence = {{.joins = {}, .points = points, .residual = 0.001, .confidence = confidence}};
   result.kinds.emplace_back().kind = {.radius = 0.01, .segments = {{1, 2, length}}, .length_min = length};
   return result;
 }
@@ -23,12 +25,18 @@ double length_of_likeliest(std::vector<AxisModel> tries) {
 }
 
 TEST(Tries, AreInDoubtWhereSomePointsAreProbablyWrongButNotNearlyAll) {
-  constexpr double sure_min = 0.95;
-  EXPECT_FALSE(is_in_doubt(model_with(0.5, 0.96).model, sure_min));
-  EXPECT_TRUE(is_in_doubt(model_with(0.5, 0.94).model, sure_min));
-  EXPECT_TRUE(is_in_doubt(model_with(0.5, 0.21).model, sure_min));
-  EXPECT_FALSE(is_in_doubt(model_with(0.5, 0.19).model, sure_min));
-  EXPECT_FALSE(is_in_doubt(Model{}, sure_min));
+  const FragmentSettings settings{.noisy_min = 0.05, .sure_min = 0.95};
+  EXPECT_FALSE(is_in_doubt(model_with(0.5, 0.96).model, settings));
+  EXPECT_TRUE(is_in_doubt(model_with(0.5, 0.94).model, settings));
+  EXPECT_TRUE(is_in_doubt(model_with(0.5, 0.21).model, settings));
+  EXPECT_FALSE(is_in_doubt(model_with(0.5, 0.19).model, settings));
+  EXPECT_FALSE(is_in_doubt(Model{}, settings));
+}
+
+// Where voxels begin decides little where points are exact.
+TEST(Tries, AreInDoubtOnlyWherePointsAreNoisy) {
+  EXPECT_TRUE(is_in_doubt(model_with(0.5, 0.7).model, {.noisy_min = 0.09}));
+  EXPECT_FALSE(is_in_doubt(model_with(0.5, 0.7).model, {.noisy_min = 0.11}));
 }
 
 TEST(Tries, OfTheSameLengthAreJudgedByThePointsThatAreProbablyRight) {

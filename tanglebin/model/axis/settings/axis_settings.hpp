@@ -52,7 +52,8 @@ struct FragmentSettings {
   double parallel_max = 0.96;  ///< length of the mean normal of a voxel; more are on a plane
   int points_min = 8;          ///< fragments with fewer points are dropped
   double speck_max = 0.05;     ///< and those with less than this share of the points on a radius of length
-  double sure_min = 0.95;      ///< share of points probably right; with less, votes are cut again
+  double noisy_min = 0.04;     ///< radii, of the usual residual; with less, votes are not cut again
+  double sure_min = 0.99;      ///< share of points probably right; with more, neither
 };
 
 /// Join: which links are possible, and their weights.
