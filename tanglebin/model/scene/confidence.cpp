@@ -15,7 +15,8 @@ ConfidenceFeatures features_of(const TubeEvidence& evidence, const KnownScene& k
   const double lacking = kind.length_min > 0 ? std::max(0.0, 1 - evidence.length / kind.length_min) : 0;
   const double excess = kind.length_is_known() ? std::max(0.0, evidence.length / kind.length() - 1) : 0;
   const double residual = std::min(1.0, evidence.residual / kind.radius);
-  const bool is_support_known = known.support.shape != Support::Shape::nothing;
+  constexpr double usual_max = 0.15;  // in a bin or on a plane
+  const double usual = known.support.shape == Support::Shape::nothing ? 0 : usual_max;
   return {1,
           margin,
           lacking,
@@ -24,7 +25,7 @@ ConfidenceFeatures features_of(const TubeEvidence& evidence, const KnownScene& k
           residual,
           std::min(1.0, std::abs(evidence.unevenness) / kind.radius),
           std::log(std::max(1.0, evidence.visible_length / kind.radius)),
-          is_support_known ? 0 : residual};
+          std::max(0.0, residual - usual)};
 }
 
 double confidence(const ConfidenceFeatures& features, const ConfidenceFeatures& weights) {
