@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <functional>
 #include <tuple>
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
+#include "tanglebin/geometry/labels.hpp"
 
 namespace tanglebin {
 namespace {
@@ -34,6 +35,54 @@ double usual_residual(const Model& model) {
   for (std::size_t i = 0; i < model.tubes.size(); ++i)
     residuals.emplace_back(model.evidence[i].residual / model.tubes[i].radius, model.evidence[i].points);
   return weighted_median(std::move(residuals));
+}
+
+// How many points each tube of one model shares with each tube of the other.
+std::vector<std::vector<std::size_t>> shared_points(const Model& a, const Model& b) {
+  std::vector<std::vector<std::size_t>> shared(a.tubes.size(), std::vector<std::size_t>(b.tubes.size()));
+  for (std::size_t i = 0; i < a.labels.size(); ++i) {
+    if (a.labels[i] > bin_label && b.labels[i] > bin_label)
+      ++shared[static_cast<std::size_t>(a.labels[i]) - 1][static_cast<std::size_t>(b.labels[i]) - 1];
+  }
+  return shared;
+}
+
+bool are_same(const TubeEvidence& a, const TubeEvidence& b, std::size_t shared) {
+  constexpr double overlap_min = 0.9;  // intersection over union
+  return static_cast<double>(shared) > overlap_min * static_cast<double>(a.points + b.points - shared);
+}
+
+// Of each tube of a try, the mean over all tries that have it: where voxels begin says nothing of a tube.
+std::vector<double> mean_confidences(const AxisModel& of, const std::vector<AxisModel>& tries) {
+  const std::vector<TubeEvidence>& tubes = of.model.evidence;
+  std::vector<double> sums(tubes.size());
+  std::vector<double> numbers(tubes.size());
+  const auto add = [&](std::size_t tube, double confidence) {
+    sums[tube] += confidence;
+    ++numbers[tube];
+  };
+  for (std::size_t i = 0; i < tubes.size(); ++i) add(i, tubes[i].confidence);
+  for (const AxisModel& tried : tries) {
+    if (&tried == &of) continue;
+    const std::vector<std::vector<std::size_t>> shared = shared_points(of.model, tried.model);
+    for (std::size_t i = 0; i < tubes.size(); ++i) {
+      for (std::size_t j = 0; j < shared[i].size(); ++j) {
+        const TubeEvidence& other = tried.model.evidence[j];
+        if (are_same(tubes[i], other, shared[i][j])) add(i, other.confidence);
+      }
+    }
+  }
+  std::ranges::transform(sums, numbers, sums.begin(), std::divides{});
+  return sums;
+}
+
+// The same as of a model by itself, but as sure as all tries together are.
+double probably_right(const AxisModel& tried, const std::vector<AxisModel>& tries) {
+  const std::vector<double> confidences = mean_confidences(tried, tries);
+  double sum = 0;
+  for (std::size_t i = 0; i < confidences.size(); ++i)
+    sum += confidences[i] * static_cast<double>(tried.model.evidence[i].points);
+  return sum;
 }
 
 }  // namespace
@@ -65,7 +114,7 @@ AxisModel& likeliest_of(std::vector<AxisModel>& tries) {
   const auto rank = [&](const AxisModel& tried) {
     const auto agreeing =
         std::ranges::count_if(tries, [&](const AxisModel& other) { return have_same_lengths(tried, other); });
-    return std::tuple(2 * agreeing >= std::ssize(tries), known_shapes(tried), probably_right(tried.model));
+    return std::tuple(2 * agreeing >= std::ssize(tries), known_shapes(tried), probably_right(tried, tries));
   };
   return *std::ranges::max_element(tries, {}, rank);
 }

@@ -23,7 +23,8 @@ bool is_in_doubt(const Model& model, const FragmentSettings& settings);
 /// `number`th one. Nothing is known if none does.
 TubeShapes shapes_in(const std::vector<AxisModel>& tries, std::size_t number, const TubeKind& kind);
 
-/// Of at least one model of the same cloud, the one with the most points that are probably right. Where at
+/// Of at least one model of the same cloud, the one with the most points that are probably right. A tube that
+/// several models have, with the same points but for a tenth, is as sure as in the mean of these. Where at
 /// least half of the models have found the same length of the tubes, or none, it is one of them: at too large
 /// a length, false tubes look right. So they do where it is not known what whole tubes look like: where some
 /// of the models know, it is one of these.

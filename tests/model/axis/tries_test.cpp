@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
+#include "tanglebin/geometry/labels.hpp"
 #include "tests/model/axis/links/bent_bar.hpp"
 
 namespace tanglebin {
@@ -43,6 +45,32 @@ TEST(Tries, OfTheSameLengthAreJudgedByThePointsThatAreProbablyRight) {
   std::vector<AxisModel> tries = {model_with(0.5, 0.9), model_with(0.5, 0.8, 200), model_with(0.5, 0.95)};
   EXPECT_EQ(probably_right(tries[1].model), 160);
   EXPECT_EQ(&likeliest_of(tries), &tries[1]);
+}
+
+// A tube of 100 points, and another one of 50 that begins `from` points later.
+AxisModel model_with_two(double confidence, double of_other, std::size_t from) {
+  AxisModel result = model_with(0.5, confidence);
+  result.model.tubes.resize(2, result.model.tubes[0]);
+  result.model.evidence.push_back({.joins = {}, .points = 50, .residual = 0.001, .confidence = of_other});
+  result.model.labels.assign(200, null_label);
+  std::fill_n(result.model.labels.begin(), 100, 1);
+  std::fill_n(result.model.labels.begin() + 100 + static_cast<std::ptrdiff_t>(from), 50, 2);
+  return result;
+}
+
+// What they have in common decides nothing, however sure one of them is of it by chance.
+TEST(Tries, AreJudgedByTheTubesInWhichTheyDiffer) {
+  std::vector<AxisModel> tries = {model_with_two(0.9, 0.5, 0), model_with_two(0.7, 0.6, 30)};
+  EXPECT_GT(probably_right(tries[0].model), probably_right(tries[1].model));
+  EXPECT_EQ(&likeliest_of(tries), &tries[1]);
+}
+
+// Of tries that have the same tubes, the first is taken.
+TEST(Tries, ThatDifferInAFewPointsHaveTheSameTubes) {
+  std::vector<AxisModel> tries = {model_with_two(0.75, 0.25, 0), model_with_two(0.75, 0.5, 2)};
+  EXPECT_EQ(&likeliest_of(tries), &tries[0]) << "48 of 52 points are on both";
+  tries[1] = model_with_two(0.75, 0.5, 3);
+  EXPECT_EQ(&likeliest_of(tries), &tries[1]) << "47 of 53 are";
 }
 
 TEST(Tries, WithALengthThatMostContradictDoNotCountHoweverSureTheyAre) {
