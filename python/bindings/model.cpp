@@ -64,6 +64,7 @@ void bind_evidence(py::module_& module) {
       .def_readonly("points", &TubeEvidence::points, doc::model::TubeEvidence_points)
       .def_readonly("residual", &TubeEvidence::residual, doc::model::TubeEvidence_residual)
       .def_readonly("radius_error", &TubeEvidence::radius_error, doc::model::TubeEvidence_radius_error)
+      .def_readonly("disagreement", &TubeEvidence::disagreement, doc::model::TubeEvidence_disagreement)
       .def_readonly("length", &TubeEvidence::length, doc::model::TubeEvidence_length)
       .def_readonly("visible_length", &TubeEvidence::visible_length, doc::model::TubeEvidence_visible_length)
       .def_property_readonly("coverage", &TubeEvidence::coverage, doc::model::TubeEvidence_coverage)

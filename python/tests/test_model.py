@@ -42,6 +42,7 @@ def test_a_model_says_how_sure_it_is(model, cloud):
     for evidence in model.evidence:
         assert isinstance(evidence, tanglebin.TubeEvidence)
         assert 0 < evidence.confidence <= 1 and 0 < evidence.coverage <= 1
+        assert 0 <= evidence.disagreement <= 1
         assert evidence.length_fit in ["unknown", "complete", "too_short", "too_long"]
         assert evidence.length == pytest.approx(0.5, abs=0.05) and evidence.residual < 0.002
         for join in evidence.joins:

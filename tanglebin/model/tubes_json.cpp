@@ -52,6 +52,7 @@ Json json_of(const Tube& tube, const TubeEvidence& evidence) {
   json["length_fit"] = name_of(evidence.length_fit);
   json["visible_length"] = evidence.visible_length;
   json["radius_error"] = evidence.radius_error;
+  json["disagreement"] = evidence.disagreement;
   json["joins"] = Json::array();
   for (const TubeJoin& join : evidence.joins) json["joins"].push_back(json_of(join));
   return json;

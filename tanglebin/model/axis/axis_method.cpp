@@ -355,6 +355,7 @@ AxisModel model_by_axes(const PointCloud& cloud, const KnownScene& known, double
     tries.push_back(model_with(shift));
   }
   AxisModel& best = likeliest_of(tries);
+  weigh_by_others(best, tries, with_lengths(known, best.model.estimated_lengths));
   for (const AxisModel& tried : tries) {
     if (&tried != &best) add_times(best.model.steps, tried.model.steps);
   }

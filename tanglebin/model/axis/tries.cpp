@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
 #include "tanglebin/base/median.hpp"
 #include "tanglebin/geometry/labels.hpp"
+#include "tanglebin/model/scene/confidence.hpp"
 
 namespace tanglebin {
 namespace {
@@ -52,26 +54,31 @@ bool are_same(const TubeEvidence& a, const TubeEvidence& b, std::size_t shared) 
   return static_cast<double>(shared) > overlap_min * static_cast<double>(a.points + b.points - shared);
 }
 
-// Of each tube of a try, the mean over all tries that have it: where voxels begin says nothing of a tube.
-std::vector<double> mean_confidences(const AxisModel& of, const std::vector<AxisModel>& tries) {
+// Visits the tubes of other tries that are the same as one of this try, of which the number is given.
+void for_each_same(const AxisModel& of, const std::vector<AxisModel>& tries,
+                   const std::function<void(std::size_t, const TubeEvidence&)>& visit) {
   const std::vector<TubeEvidence>& tubes = of.model.evidence;
-  std::vector<double> sums(tubes.size());
-  std::vector<double> numbers(tubes.size());
-  const auto add = [&](std::size_t tube, double confidence) {
-    sums[tube] += confidence;
-    ++numbers[tube];
-  };
-  for (std::size_t i = 0; i < tubes.size(); ++i) add(i, tubes[i].confidence);
   for (const AxisModel& tried : tries) {
     if (&tried == &of) continue;
     const std::vector<std::vector<std::size_t>> shared = shared_points(of.model, tried.model);
     for (std::size_t i = 0; i < tubes.size(); ++i) {
       for (std::size_t j = 0; j < shared[i].size(); ++j) {
         const TubeEvidence& other = tried.model.evidence[j];
-        if (are_same(tubes[i], other, shared[i][j])) add(i, other.confidence);
+        if (are_same(tubes[i], other, shared[i][j])) visit(i, other);
       }
     }
   }
+}
+
+// Of each tube of a try, the mean over all tries that have it: where voxels begin says nothing of a tube.
+std::vector<double> mean_confidences(const AxisModel& of, const std::vector<AxisModel>& tries) {
+  std::vector<double> sums;
+  std::ranges::transform(of.model.evidence, std::back_inserter(sums), &TubeEvidence::confidence);
+  std::vector<double> numbers(sums.size(), 1);
+  for_each_same(of, tries, [&](std::size_t tube, const TubeEvidence& other) {
+    sums[tube] += other.confidence;
+    ++numbers[tube];
+  });
   std::ranges::transform(sums, numbers, sums.begin(), std::divides{});
   return sums;
 }
@@ -117,6 +124,16 @@ AxisModel& likeliest_of(std::vector<AxisModel>& tries) {
     return std::tuple(2 * agreeing >= std::ssize(tries), known_shapes(tried), probably_right(tried, tries));
   };
   return *std::ranges::max_element(tries, {}, rank);
+}
+
+void weigh_by_others(AxisModel& chosen, const std::vector<AxisModel>& tries, const KnownScene& known) {
+  if (tries.size() < 2) return;
+  const double others = static_cast<double>(tries.size() - 1);
+  std::vector<TubeEvidence>& tubes = chosen.model.evidence;
+  for (TubeEvidence& tube : tubes) tube.disagreement = 1;
+  for_each_same(chosen, tries,
+                [&](std::size_t tube, const TubeEvidence&) { tubes[tube].disagreement -= 1 / others; });
+  for (TubeEvidence& tube : tubes) tube.confidence = confidence(features_of(tube, known));
 }
 
 }  // namespace tanglebin

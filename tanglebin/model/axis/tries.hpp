@@ -30,4 +30,8 @@ TubeShapes shapes_in(const std::vector<AxisModel>& tries, std::size_t number, co
 /// of the models know, it is one of these.
 AxisModel& likeliest_of(std::vector<AxisModel>& tries);
 
+/// Weighs the tubes of one of the models once more: those that others do not have are less sure. `known` with
+/// the lengths that it has found.
+void weigh_by_others(AxisModel& chosen, const std::vector<AxisModel>& tries, const KnownScene& known);
+
 }  // namespace tanglebin

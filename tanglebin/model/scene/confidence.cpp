@@ -25,7 +25,8 @@ ConfidenceFeatures features_of(const TubeEvidence& evidence, const KnownScene& k
           residual,
           std::min(1.0, std::abs(evidence.unevenness) / kind.radius),
           std::log(std::max(1.0, evidence.visible_length / kind.radius)),
-          std::max(0.0, residual - usual)};
+          std::max(0.0, residual - usual),
+          evidence.disagreement};
 }
 
 double confidence(const ConfidenceFeatures& features, const ConfidenceFeatures& weights) {

@@ -35,6 +35,7 @@ struct TubeEvidence {
   double radius_error = 0;      ///< m, by how much a thicker tube would fit these points better, not counting
                                 ///< outliers; thinner: < 0
   double unevenness = 0;      ///< m, the same with outliers: large where points of other tubes are among them
+  double disagreement = 0;    ///< share of the other models of the cloud, if any, that do not have it
   double length = 0;          ///< m, of its centre line, with all branches
   double visible_length = 0;  ///< m, of the part of the centre line that has points
   LengthFit length_fit = LengthFit::unknown;

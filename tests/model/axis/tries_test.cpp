@@ -73,6 +73,24 @@ TEST(Tries, ThatDifferInAFewPointsHaveTheSameTubes) {
   EXPECT_EQ(&likeliest_of(tries), &tries[1]) << "47 of 53 are";
 }
 
+TEST(Tries, ThatDoNotHaveATubeMakeItLessSure) {
+  const KnownScene known{.kinds = {{.radius = 0.01, .length_min = 0.5}}};
+  std::vector<AxisModel> tries(3, model_with_two(0.9, 0.9, 0));
+  tries[1] = model_with_two(0.9, 0.9, 30);
+  weigh_by_others(tries[0], tries, known);
+  const std::vector<TubeEvidence>& tubes = tries[0].model.evidence;
+  EXPECT_EQ(tubes[0].disagreement, 0);
+  EXPECT_EQ(tubes[1].disagreement, 0.5);
+  EXPECT_LT(tubes[1].confidence, tubes[0].confidence);
+}
+
+TEST(Tries, ThatAreTheOnlyOneStayAsSureAsTheyAre) {
+  std::vector<AxisModel> tries = {model_with_two(0.9, 0.8, 0)};
+  weigh_by_others(tries[0], tries, {});
+  for (const TubeEvidence& tube : tries[0].model.evidence) EXPECT_EQ(tube.disagreement, 0);
+  EXPECT_EQ(tries[0].model.evidence[1].confidence, 0.8);
+}
+
 TEST(Tries, WithALengthThatMostContradictDoNotCountHoweverSureTheyAre) {
   EXPECT_EQ(length_of_likeliest({model_with(0.5, 0.8), model_with(0.7, 0.99), model_with(0.51, 0.7)}), 0.5);
   EXPECT_EQ(length_of_likeliest(

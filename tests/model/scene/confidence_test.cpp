@@ -40,6 +40,16 @@ TEST_F(Confidence, FallsWithTheResidualMostWhereNoSupportIsKnown) {
   EXPECT_LT(with_residual(0.004), 0.5);
 }
 
+// Of a cloud that was modelled several times.
+TEST_F(Confidence, FallsWithTheShareOfOtherModelsThatDoNotHaveTheTube) {
+  const double in_all = with_residual(0.0002);
+  evidence_.disagreement = 0.5;
+  const double in_half = with_residual(0.0002);
+  evidence_.disagreement = 1;
+  EXPECT_LT(in_half, in_all);
+  EXPECT_LT(with_residual(0.0002), in_half);
+}
+
 TEST_F(Confidence, FallsWithWhatALengthLacksOrHasTooMuch) {
   const double whole = with_residual(0.0002);
   evidence_.length = evidence_.visible_length = 0.3;
