@@ -74,7 +74,8 @@ TEST(Tries, ThatDifferInAFewPointsHaveTheSameTubes) {
 }
 
 TEST(Tries, ThatDoNotHaveATubeMakeItLessSure) {
-  const KnownScene known{.kinds = {{.radius = 0.01, .length_min = 0.5}}};
+  KnownScene known;
+  known.kinds = {{.radius = 0.01, .length_min = 0.5}};
   std::vector<AxisModel> tries(3, model_with_two(0.9, 0.9, 0));
   tries[1] = model_with_two(0.9, 0.9, 30);
   weigh_by_others(tries[0], tries, known);
