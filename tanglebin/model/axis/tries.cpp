@@ -128,7 +128,7 @@ AxisModel& likeliest_of(std::vector<AxisModel>& tries) {
 
 void weigh_by_others(AxisModel& chosen, const std::vector<AxisModel>& tries, const KnownScene& known) {
   if (tries.size() < 2) return;
-  const double others = static_cast<double>(tries.size() - 1);
+  const auto others = static_cast<double>(tries.size() - 1);
   std::vector<TubeEvidence>& tubes = chosen.model.evidence;
   for (TubeEvidence& tube : tubes) tube.disagreement = 1;
   for_each_same(chosen, tries,
