@@ -101,7 +101,7 @@ double probably_right(const Model& model) {
 }
 
 bool is_in_doubt(const Model& model, const FragmentSettings& settings) {
-  constexpr double hopeless = 0.4;
+  constexpr double hopeless = 0.5;
   double points = 0;
   for (const TubeEvidence& tube : model.evidence) points += static_cast<double>(tube.points);
   const double right = probably_right(model);

@@ -30,8 +30,8 @@ TEST(Tries, AreInDoubtWhereSomePointsAreProbablyWrongButNotNearlyAll) {
   const FragmentSettings settings{.noisy_min = 0.05, .sure_min = 0.95};
   EXPECT_FALSE(is_in_doubt(model_with(0.5, 0.96).model, settings));
   EXPECT_TRUE(is_in_doubt(model_with(0.5, 0.94).model, settings));
-  EXPECT_TRUE(is_in_doubt(model_with(0.5, 0.41).model, settings));
-  EXPECT_FALSE(is_in_doubt(model_with(0.5, 0.39).model, settings));
+  EXPECT_TRUE(is_in_doubt(model_with(0.5, 0.51).model, settings));
+  EXPECT_FALSE(is_in_doubt(model_with(0.5, 0.49).model, settings));
   EXPECT_FALSE(is_in_doubt(Model{}, settings));
 }
 
