@@ -7,6 +7,9 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tanglebin/base/random.hpp"
 #include "tanglebin/io/configuration.hpp"
