@@ -102,11 +102,13 @@ double probably_right(const Model& model) {
 
 bool is_in_doubt(const Model& model, const FragmentSettings& settings) {
   constexpr double hopeless = 0.5;
+  constexpr double too_noisy = 0.3;  // radii
   double points = 0;
   for (const TubeEvidence& tube : model.evidence) points += static_cast<double>(tube.points);
   const double right = probably_right(model);
-  return right < settings.sure_min * points && right >= hopeless * points &&
-         usual_residual(model) >= settings.noisy_min;
+  const double residual = usual_residual(model);
+  return right < settings.sure_min * points && right >= hopeless * points && residual >= settings.noisy_min &&
+         residual < too_noisy;
 }
 
 TubeShapes shapes_in(const std::vector<AxisModel>& tries, std::size_t number, const TubeKind& kind) {

@@ -16,7 +16,8 @@ double probably_right(const Model& model);
 
 /// Whether votes that are cut into other pieces may give a better model: where less than `sure_min` of the
 /// points on tubes are probably right, and points are noisy: the residual of the tube that the point in the
-/// middle is on is at least `noisy_min`. In a cloud of nothing but noise, they will not.
+/// middle is on is at least `noisy_min`. In a cloud of nothing but noise, they will not: where that is 0.3
+/// radii or more, or most points are probably wrong.
 bool is_in_doubt(const Model& model, const FragmentSettings& settings);
 
 /// What one of the models, which has found the same length, knows of the shapes of tubes of this kind, the

@@ -39,6 +39,9 @@ TEST(Tries, AreInDoubtWhereSomePointsAreProbablyWrongButNotNearlyAll) {
 TEST(Tries, AreInDoubtOnlyWherePointsAreNoisy) {
   EXPECT_TRUE(is_in_doubt(model_with(0.5, 0.7).model, {.noisy_min = 0.09}));
   EXPECT_FALSE(is_in_doubt(model_with(0.5, 0.7).model, {.noisy_min = 0.11}));
+  AxisModel noise = model_with(0.5, 0.7);
+  noise.model.evidence[0].residual = 0.0031;
+  EXPECT_FALSE(is_in_doubt(noise.model, {.noisy_min = 0.09})) << "they are nothing but noise";
 }
 
 TEST(Tries, OfTheSameLengthAreJudgedByThePointsThatAreProbablyRight) {
