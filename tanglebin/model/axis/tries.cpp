@@ -125,7 +125,10 @@ AxisModel& likeliest_of(std::vector<AxisModel>& tries) {
         std::ranges::count_if(tries, [&](const AxisModel& other) { return have_same_lengths(tried, other); });
     return std::tuple(2 * agreeing >= std::ssize(tries), known_shapes(tried), probably_right(tried, tries));
   };
-  return *std::ranges::max_element(tries, {}, rank);
+  // Each is worked out once: it counts the points of all tries.
+  std::vector<std::tuple<bool, std::ptrdiff_t, double>> ranks;
+  std::ranges::transform(tries, std::back_inserter(ranks), rank);
+  return *(tries.begin() + (std::ranges::max_element(ranks) - ranks.begin()));
 }
 
 void weigh_by_others(AxisModel& chosen, const std::vector<AxisModel>& tries, const KnownScene& known) {

@@ -26,7 +26,7 @@ double length_of_likeliest(std::vector<AxisModel> tries) {
   return likeliest_of(tries).kinds[0].kind.length();
 }
 
-TEST(Tries, AreInDoubtWhereSomePointsAreProbablyWrongButNotNearlyAll) {
+TEST(Tries, AreInDoubtWhereSomePointsAreProbablyWrongButNotMost) {
   const FragmentSettings settings{.noisy_min = 0.05, .sure_min = 0.95};
   EXPECT_FALSE(is_in_doubt(model_with(0.5, 0.96).model, settings));
   EXPECT_TRUE(is_in_doubt(model_with(0.5, 0.94).model, settings));
