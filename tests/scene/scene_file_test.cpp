@@ -266,9 +266,9 @@ Scene any_scene() {
   if (maybe()) {
     scene.support = Support{.shape = *rc::gen::element(Support::Shape::bin, Support::Shape::plane)};
     if (scene.support->shape == Support::Shape::bin)
-      // At least 0.28 m across: the reader refuses a tube longer than ten diagonals.
-      scene.support->bin = {.length = *number(0.2, 10),
-                            .width = *number(0.2, 10),
+      // At least 0.35 m across: the reader refuses more than ten diagonals, and a tree may have 3 m.
+      scene.support->bin = {.length = *number(0.25, 10),
+                            .width = *number(0.25, 10),
                             .height = *number(0.01, 10),
                             .wall = *number(0.001, 0.5)};
     if (maybe()) scene.support->pose = any_pose();
