@@ -109,6 +109,10 @@ void for_each_parameter(Settings& settings, Visit visit) {
   visit({"axis.vote.bin_tolerance", "radii, by which an axis may be nearer to the bin than one radius",
          up_to(100), by_steps(0, 1)},
         settings.axis.vote.bin_tolerance);
+  visit({"axis.vote.flat_min",
+         "flat places, half a radius apart, that make a surface that does not vote; not in a known bin", many,
+         by_factors(5, 100)},
+        settings.axis.vote.flat_min);
   visit({"axis.fragment.voxel", "radii; the axes of touching tubes are two radii apart", between(0.05, 100),
          by_factors(0.1, 1)},
         settings.axis.fragment.voxel);

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "tanglebin/model/axis/fragments/flat_surfaces.hpp"
+
 namespace tanglebin {
 namespace {
 
@@ -48,6 +50,9 @@ AxisVotes vote_for_axes(std::vector<Vector3f> points, const Support& support, co
   const auto [reach, stride] = sampling;
   result.reach = reach;
   const std::vector<std::optional<Patch>> patches = surface_patches(grid, sampling, radius, settings.patch);
+  const std::vector<bool> flat = holds_only_tubes(support)
+                                     ? std::vector<bool>(patches.size())
+                                     : are_flat(patches, grid, sampling, radius, settings.flat_min);
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (!patches[i]) continue;
     const Patch& patch = *patches[i];
@@ -63,7 +68,7 @@ AxisVotes vote_for_axes(std::vector<Vector3f> points, const Support& support, co
     for (std::size_t near = item - std::min(item, stride - 1); near < end; ++near) {
       Vector3f& vote = result.votes[grid.indices()[near]];
       if (vote.allFinite() || (grid.point(near) - grid.point(item)).norm() > reach) continue;
-      vote = axis;
+      if (!flat[i]) vote = axis;
       result.normals[grid.indices()[near]] = patch.normal;
     }
   }

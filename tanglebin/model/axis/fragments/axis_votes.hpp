@@ -18,7 +18,8 @@ struct AxisVotes {
 
 /// Each point votes for the point one radius (m) inwards along its surface normal, which lies on its tube's
 /// axis. The normal is that of a plane through its neighbours in the camera's image. There is no vote where
-/// two surfaces meet, nor for an axis in the support or too near to it. Where points are dense, a few beside
+/// two surfaces meet, nor for an axis in the support or too near to it, nor from a flat surface unless the
+/// support holds_only_tubes(); its points have a normal all the same. Where points are dense, a few beside
 /// each other share a patch and its vote. Points in the support's frame.
 AxisVotes vote_for_axes(std::vector<Eigen::Vector3f> points, const Support& support, const Camera& camera,
                         double radius, const VoteSettings& settings);

@@ -42,6 +42,7 @@ std::vector<std::vector<std::size_t>> pieces(const std::vector<Vector3f>& points
                                              const FragmentSettings& fragment) {
   vote.patch = for_all(vote.patch, radii);
   vote.bin_tolerance = 1;  // a thinner tube's axis may be nearer to the bin than this radius
+  vote.flat_min = std::numeric_limits<int>::max();  // beside this radius, a thick tube may look flat
   const double radius = radii.middle();
   const AxisVotes votes = vote_for_axes(points, known.support, known.camera, radius, vote);
   std::vector<std::vector<std::size_t>> found;

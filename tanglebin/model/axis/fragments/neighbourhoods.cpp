@@ -204,11 +204,12 @@ template <std::size_t points>
 }
 
 /// The planes through the neighbours of eight points: unit normals, the neighbours' variances about the
-/// planes, and the smaller of their two variances within them.
+/// planes, and their two variances within them, the smaller one first.
 struct Planes {
   LaneVectors normal;
   Lanes roughness{};
   Lanes breadth{};
+  Lanes length{};
 };
 
 [[gnu::always_inline]] inline LaneMatrices adjugate_of(const LaneMatrices& m) {
@@ -258,7 +259,7 @@ struct Planes {
   Lanes difference = sum * sum / 4 - product;
   difference = difference > 0 ? difference : Lanes{};
   take_roots(difference);
-  return {normal, roughness, sum / 2 - difference};
+  return {normal, roughness, sum / 2 - difference, sum / 2 + difference};
 }
 
 // Sums up the neighbours of so many points at once.
@@ -269,8 +270,8 @@ template <std::size_t points>
   const Planes planes = planes_of(neighbours.covariance);
   for (std::size_t i = 0; i < lanes; ++i) {
     const auto vector = [i](const LaneVectors& of) { return Vector3f(of.x[i], of.y[i], of.z[i]); };
-    found[i] = {neighbours.count[i], vector(neighbours.mean), vector(planes.normal), planes.roughness[i],
-                planes.breadth[i]};
+    found[i] = {neighbours.count[i], vector(neighbours.mean), vector(planes.normal),
+                planes.roughness[i], planes.breadth[i],       planes.length[i]};
   }
 }
 

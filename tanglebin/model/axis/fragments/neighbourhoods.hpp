@@ -16,6 +16,7 @@ struct Neighbourhood {
   Eigen::Vector3f normal;  ///< unit, of the plane, to either side; NaN if all neighbours are on a line
   float roughness;         ///< the neighbours' variance about the plane, reaches²
   float breadth;           ///< the smaller of their two variances within the plane, reaches²
+  float length;            ///< the greater one
 };
 
 /// As many points are worked on together.

@@ -35,6 +35,7 @@ struct VoteSettings {
   double facing_min = 0.3;     ///< cosine of the angle between normal and view; where there are ramps
   double floor_margin = 0.5;   ///< radii; points nearer to the floor are not on a visible tube
   double bin_tolerance = 0.5;  ///< radii, by which an axis may be nearer to the bin than one radius
+  int flat_min = 20;           ///< flat places, half a radius apart, that make a surface that does not vote
 };
 
 /// Fragment: finds thin clusters of votes and their centre lines.
