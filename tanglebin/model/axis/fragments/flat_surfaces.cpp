@@ -113,12 +113,16 @@ std::vector<FlatPlace> flat_places(const PixelGrid& grid, float reach, float rad
     for (std::size_t i = 0; i < number; ++i) {
       const Around around{wide[i], wide_reach};
       if (is_flat({near[i], reach}, around, radius))
-        places.push_back(
-            {grid.point(at_once[i]) + wide[i].mean, wide[i].normal, around.square_metres(wide[i].roughness)});
+        places.push_back({grid.point(at_once[i]) + wide[i].mean, wide[i].normal,
+                          around.square_metres(std::max(wide[i].roughness, 0.0F))});
     }
   }
   return places;
 }
+
+// A scene has some ten. Of rubble, each stone may have its own; those that are found later do not count,
+// since to compare all with each other would take minutes.
+constexpr std::size_t surfaces_max = 1000;
 
 std::vector<FlatSurface> flat_surfaces(const std::vector<FlatPlace>& places, float radius, int places_min) {
   std::vector<FlatSurface> surfaces;
@@ -126,7 +130,10 @@ std::vector<FlatSurface> flat_surfaces(const std::vector<FlatPlace>& places, flo
     const auto its_own = std::ranges::find_if(surfaces, [&](const FlatSurface& surface) {
       return surface.has_in_plane(place.position, place.normal, radius);
     });
-    (its_own == surfaces.end() ? surfaces.emplace_back() : *its_own).add(place);
+    if (its_own != surfaces.end())
+      its_own->add(place);
+    else if (surfaces.size() < surfaces_max)
+      surfaces.emplace_back().add(place);
   }
   std::erase_if(surfaces, [&](const FlatSurface& surface) { return surface.places() < places_min; });
   return surfaces;
