@@ -76,6 +76,27 @@ bool scatters_as_usual(const TubeCandidate& candidate, double usual) {
   return candidate.surface->scatter <= std::max(factor_max * usual, of_fit * candidate.tube.radius);
 }
 
+// Points per area of the tube, 1/m².
+double density(const TubeCandidate& candidate) {
+  return static_cast<double>(candidate.points) / (total_length(candidate.tube) * candidate.tube.radius);
+}
+
+// Of the tube that the point in the middle is on.
+double usual_density(const CandidatesByKind& of_kinds) {
+  std::vector<std::pair<double, std::size_t>> densities;
+  for (const std::vector<TubeCandidate>& candidates : of_kinds) {
+    for (const TubeCandidate& candidate : candidates)
+      densities.emplace_back(density(candidate), candidate.points);
+  }
+  return weighted_median(std::move(densities));
+}
+
+// What is left of the border of a flat surface is narrow, and not round.
+bool is_sliver(const TubeCandidate& candidate, double usual) {
+  constexpr double least = 0.4;
+  return !candidate.surface->roundness && density(candidate) < least * usual;
+}
+
 // Whether the axis of a tube that is here would be in the top of a wall.
 bool is_in_rim(const Support& support, double radius, const Eigen::Vector3d& place) {
   const Bin& bin = support.bin;
@@ -190,9 +211,12 @@ CandidatesByKind take_what_is_no_tube(CandidatesByKind& of_kinds, const Support&
   }
   take_unless(of_kinds, odd,
               [&](const TubeCandidate& candidate) { return looks_like_a_tube(*candidate.surface, support); });
-  const double usual = usual_scatter(of_kinds);
-  take_unless(of_kinds, odd,
-              [&](const TubeCandidate& candidate) { return scatters_as_usual(candidate, usual); });
+  take_unless(of_kinds, odd, [usual = usual_density(of_kinds)](const TubeCandidate& candidate) {
+    return !is_sliver(candidate, usual);
+  });
+  take_unless(of_kinds, odd, [usual = usual_scatter(of_kinds)](const TubeCandidate& candidate) {
+    return scatters_as_usual(candidate, usual);
+  });
   return odd;
 }
 

@@ -49,6 +49,24 @@ TEST(Candidates, MayScatterALittleHoweverSmoothTheOthersAre) {
   EXPECT_EQ(scatters_left({0, 0, 0, 0.05}).size(), 3U);
 }
 
+// How many are left, on a plane, of tubes with so many points of which too little is seen to be round.
+std::size_t number_left(const std::vector<std::size_t>& points) {
+  CandidatesByKind of_kinds(1);
+  for (const std::size_t number : points) {
+    of_kinds[0].push_back(that_scatters_by(0));
+    of_kinds[0].back().points = number;
+    of_kinds[0].back().surface->roundness.reset();
+  }
+  take_what_is_no_tube(of_kinds, {.shape = Support::Shape::plane});
+  return of_kinds[0].size();
+}
+
+// As the border of a tray is, or a crack between two plates.
+TEST(Candidates, AreNoTubeIfTheyAreASliver) {
+  EXPECT_EQ(number_left({1000, 1000, 500, 450}), 4U);
+  EXPECT_EQ(number_left({1000, 1000, 500, 350}), 3U);
+}
+
 // The radii, in known ones, of the tubes that are taken out as foreign from tubes that show these.
 std::vector<double> foreign_of(const std::vector<double>& seen) {
   CandidatesByKind of_kinds(1);
