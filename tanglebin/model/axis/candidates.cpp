@@ -59,36 +59,32 @@ bool looks_like_a_tube(const TubeSurface& surface, const Support& support) {
   return *surface.roundness >= least * of_a_tube && *surface.roundness <= most;
 }
 
-// m, of the tube that the point in the middle is on: by how much points scatter about a tube here.
-double usual_scatter(const CandidatesByKind& of_kinds) {
-  std::vector<std::pair<double, std::size_t>> scatters;
+// What is measured of the tube that the point in the middle is on.
+template <typename Measure>
+double usual(const CandidatesByKind& of_kinds, const Measure& measure) {
+  std::vector<std::pair<double, std::size_t>> measured;
   for (const std::vector<TubeCandidate>& candidates : of_kinds) {
     for (const TubeCandidate& candidate : candidates)
-      scatters.emplace_back(candidate.surface->scatter, candidate.points);
+      measured.emplace_back(measure(candidate), candidate.points);
   }
-  return weighted_median(std::move(scatters));
+  return weighted_median(std::move(measured));
+}
+
+// By how much its points scatter, m.
+double scatter(const TubeCandidate& candidate) {
+  return candidate.surface->scatter;
 }
 
 // A fitted line that is not quite right scatters, too, however exact the scanner.
 bool scatters_as_usual(const TubeCandidate& candidate, double usual) {
   constexpr double of_fit = 0.03;  // radii
   constexpr double factor_max = 2;
-  return candidate.surface->scatter <= std::max(factor_max * usual, of_fit * candidate.tube.radius);
+  return scatter(candidate) <= std::max(factor_max * usual, of_fit * candidate.tube.radius);
 }
 
 // Points per area of the tube, 1/m².
 double density(const TubeCandidate& candidate) {
   return static_cast<double>(candidate.points) / (total_length(candidate.tube) * candidate.tube.radius);
-}
-
-// Of the tube that the point in the middle is on.
-double usual_density(const CandidatesByKind& of_kinds) {
-  std::vector<std::pair<double, std::size_t>> densities;
-  for (const std::vector<TubeCandidate>& candidates : of_kinds) {
-    for (const TubeCandidate& candidate : candidates)
-      densities.emplace_back(density(candidate), candidate.points);
-  }
-  return weighted_median(std::move(densities));
 }
 
 // What is left of the border of a flat surface is narrow, and not round.
@@ -211,10 +207,10 @@ CandidatesByKind take_what_is_no_tube(CandidatesByKind& of_kinds, const Support&
   }
   take_unless(of_kinds, odd,
               [&](const TubeCandidate& candidate) { return looks_like_a_tube(*candidate.surface, support); });
-  take_unless(of_kinds, odd, [usual = usual_density(of_kinds)](const TubeCandidate& candidate) {
+  take_unless(of_kinds, odd, [usual = usual(of_kinds, density)](const TubeCandidate& candidate) {
     return !is_sliver(candidate, usual);
   });
-  take_unless(of_kinds, odd, [usual = usual_scatter(of_kinds)](const TubeCandidate& candidate) {
+  take_unless(of_kinds, odd, [usual = usual(of_kinds, scatter)](const TubeCandidate& candidate) {
     return scatters_as_usual(candidate, usual);
   });
   return odd;

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -17,7 +16,6 @@
 namespace tanglebin {
 namespace {
 
-using Eigen::Vector3d;
 using test::radius;
 
 test::Thing level_floor() {
