@@ -133,11 +133,12 @@ AxisModel& likeliest_of(std::vector<AxisModel>& tries) {
 
 void weigh_by_others(AxisModel& chosen, const std::vector<AxisModel>& tries, const KnownScene& known) {
   if (tries.size() < 2) return;
-  const auto others = static_cast<double>(tries.size() - 1);
   std::vector<TubeEvidence>& tubes = chosen.model.evidence;
-  for (TubeEvidence& tube : tubes) tube.disagreement = 1;
-  for_each_same(chosen, tries,
-                [&](std::size_t tube, const TubeEvidence&) { tubes[tube].disagreement -= 1 / others; });
+  std::vector<std::size_t> agreeing(tubes.size());
+  for_each_same(chosen, tries, [&](std::size_t tube, const TubeEvidence&) { ++agreeing[tube]; });
+  const auto others = static_cast<double>(tries.size() - 1);
+  for (std::size_t i = 0; i < tubes.size(); ++i)
+    tubes[i].disagreement = 1 - static_cast<double>(agreeing[i]) / others;
   for (TubeEvidence& tube : tubes) tube.confidence = confidence(features_of(tube, known));
 }
 

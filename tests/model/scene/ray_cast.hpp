@@ -104,7 +104,7 @@ inline Surface wavy_floor(double amplitude, double wavelength) {
       return point.z() - amplitude * std::sin(turns * point.x()) * std::sin(turns * point.y());
     };
     double t = -ray.origin.z() / ray.direction.z();
-    for (int i = 0; i < 30; ++i) t -= height(t) / ray.direction.z();
+    for (int i = 0; i < 30 && std::abs(height(t)) > 1e-12; ++i) t -= height(t) / ray.direction.z();
     return t;
   };
 }
