@@ -27,7 +27,7 @@ inline std::vector<Tube> heap() {
           chain(4, r, {{-0.2, -0.15, r}, {0.2, -0.12, r}})};
 }
 
-inline View right_view() {
+inline View scanned_view() {
   View view;
   view.scene.support.bin = bin_preset("paper");
   view.scene.camera = camera_at({0.3, 0.2, 1.6}, {0, 0, 0}, 800, 600, 0.7);
@@ -38,8 +38,13 @@ inline View right_view() {
   return view;
 }
 
+inline const View& right_view() {
+  static const View view = scanned_view();
+  return view;
+}
+
 inline PointCloud organized() {
-  const View view = right_view();
+  const View& view = right_view();
   return organized_cloud_from_scan(scan(heap(), view.scene.support.bin, view.scene.camera),
                                    CloudOf::tubes_and_bin, 4);
 }
