@@ -35,15 +35,12 @@ install(TARGETS tanglebin_core tanglebin_axis tanglebin_paper tanglebin_modellin
         EXPORT tanglebinTargets COMPONENT development)
 install(EXPORT tanglebinTargets NAMESPACE tanglebin:: DESTINATION ${package_dir} COMPONENT development)
 
-# With their versions, such as libpcl_search.so.1.13: programs outside need no headers of the Point Cloud Library.
-set(pcl_shared_libraries)
-foreach(library IN LISTS pcl_libraries)
-  get_filename_component(library ${library} REALPATH)
-  get_filename_component(name ${library} NAME)
-  string(REGEX REPLACE "(\\.so\\.[0-9]+\\.[0-9]+).*" "\\1" name ${name})
-  list(APPEND pcl_shared_libraries ${name})
-endforeach()
-list(JOIN pcl_shared_libraries " " pcl_shared_libraries)
+# With its version, such as libpcl_common.so.1.13: programs outside need no headers of the Point Cloud Library.
+if(TANGLEBIN_HAS_PCL)
+  get_filename_component(pcl_common ${PCL_COMMON_LIBRARY} REALPATH)
+  get_filename_component(pcl_common ${pcl_common} NAME)
+  string(REGEX REPLACE "(\\.so\\.[0-9]+\\.[0-9]+).*" "\\1" pcl_common ${pcl_common})
+endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tanglebinConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/tanglebinConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/tanglebinConfigVersion.cmake

@@ -53,6 +53,9 @@ execute_process(COMMAND ldd ${work}/modelling/modelling OUTPUT_VARIABLE librarie
 if(libraries MATCHES "libode|libembree|libcrypto")
   message(FATAL_ERROR "a program that models links the simulation:\n${libraries}")
 endif()
+if(libraries MATCHES "libpcl_(features|segmentation)")
+  message(FATAL_ERROR "a program that models waits for the Point Cloud Library to be loaded (cmake/pcl.cmake):\n${libraries}")
+endif()
 
 # Each public header compiles by itself, with nothing but what is installed.
 set(headers ${work}/headers)
