@@ -127,6 +127,14 @@ private:
 
   void look_for_points_in_scene() {
     if (!are_most_missed() && !are_some_unseen() && !is_most_not_on_tubes() && !model_.tubes.empty()) return;
+    if (is_lower_floor_seen()) {
+      warn("support",
+           fmt::format(
+               "{}, but the tubes above it look right: is that the floor of the room? Crop the cloud to "
+               "the {} and what is around it",
+               words_of_miss(), known_.support.shape == Support::Shape::plane ? "table" : "bin"));
+      return;
+    }
     constexpr std::size_t points_for_remedy = 150;
     const std::optional<Remedy> remedy =
         remedy_for(some_points(points_for_remedy), known_, cloud_.depth_scale);
@@ -142,6 +150,14 @@ private:
                             "; is the support's pose right, and are the points in the frame and the "
                             "unit that the scene says?");
     }
+  }
+
+  // Most points are under the support, but what is above it is mostly on tubes that are probably right.
+  bool is_lower_floor_seen() const {
+    std::size_t right = 0;
+    for (const TubeEvidence& evidence : model_.evidence) right += is_probable(evidence) ? evidence.points : 0;
+    return are_most_missed() && !are_some_unseen() && largest_miss() == counts_.below_support &&
+           2 * right > kept();
   }
 
   std::size_t largest_miss() const {
