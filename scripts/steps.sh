@@ -2,6 +2,9 @@
 # took. A step that fails ends the script with its name.
 set -Eeuo pipefail
 
+# Many tests wait for a program that they have started, so there is time for one more than there are processors.
+tests_at_once=$(($(nproc) + 1))
+
 step() {
   end_step
   current=$1
