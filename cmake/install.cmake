@@ -37,8 +37,7 @@ install(EXPORT tanglebinTargets NAMESPACE tanglebin:: DESTINATION ${package_dir}
 
 # With its version, such as libpcl_common.so.1.13: programs outside need no headers of the Point Cloud Library.
 if(TANGLEBIN_HAS_PCL)
-  get_filename_component(pcl_common ${PCL_COMMON_LIBRARY} REALPATH)
-  get_filename_component(pcl_common ${pcl_common} NAME)
+  get_filename_component(pcl_common ${pcl_common_file} NAME)
   string(REGEX REPLACE "(\\.so\\.[0-9]+\\.[0-9]+).*" "\\1" pcl_common ${pcl_common})
 endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tanglebinConfig.cmake.in
